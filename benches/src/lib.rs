@@ -1,0 +1,1 @@
+//! Benchmarks of the fgm workspace; see the files beside.

@@ -1,0 +1,1 @@
+//! Contours of planar fields, grids and triangle meshes: rings and polylines, on the true curve, with sharp corners.

@@ -1,0 +1,36 @@
+use crate::{ColorId, Point2, Role};
+
+/// One step of a print, in the order of printing. Positions are in the design's coordinates.
+///
+/// A print is a stream of these, layer after layer; nothing in it depends on a machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// A new layer begins.
+    Layer {
+        /// From 0.
+        index: u32,
+        /// Height of the beads' tops, mm.
+        z: f64,
+        /// Thickness, mm.
+        height: f64,
+    },
+    /// From here on the deposit is to have this colour.
+    Color(ColorId),
+    /// From here on the machine is told to make this colour. Written ahead of [`Motion::Color`]
+    /// by the volume that lies between the mixing and the nozzle's tip.
+    Command(ColorId),
+    /// A move without extrusion.
+    Travel {
+        /// Where to, mm.
+        to: Point2,
+    },
+    /// A straight bead.
+    Extrude {
+        /// Where to, mm.
+        to: Point2,
+        /// Width of the bead, mm.
+        width: f64,
+        /// What the bead is for.
+        role: Role,
+    },
+}

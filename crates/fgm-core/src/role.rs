@@ -1,0 +1,50 @@
+/// What a bead is for. Speeds, fans and viewers go by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Role {
+    /// The wall that is seen.
+    OuterWall,
+    /// The walls behind it.
+    InnerWall,
+    /// Sparse filling.
+    Infill,
+    /// Full filling inside.
+    SolidInfill,
+    /// Full filling with nothing above.
+    TopSkin,
+    /// Full filling with nothing below.
+    BottomSkin,
+    /// Full filling over air.
+    Bridge,
+    /// Thin beads where nothing else fits.
+    GapFill,
+    /// Lines around the part on the first layer.
+    Skirt,
+    /// Held up by, not part of, the part.
+    Support,
+    /// Where the old colour goes.
+    PurgeTower,
+}
+
+impl Role {
+    /// Every role.
+    pub const ALL: [Self; 11] = [
+        Self::OuterWall,
+        Self::InnerWall,
+        Self::Infill,
+        Self::SolidInfill,
+        Self::TopSkin,
+        Self::BottomSkin,
+        Self::Bridge,
+        Self::GapFill,
+        Self::Skirt,
+        Self::Support,
+        Self::PurgeTower,
+    ];
+
+    /// Whether the bead belongs to the part itself.
+    pub fn is_part(self) -> bool {
+        !matches!(self, Self::Skirt | Self::Support | Self::PurgeTower)
+    }
+}
