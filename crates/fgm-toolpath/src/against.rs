@@ -1,0 +1,96 @@
+//! Filling one face with lines along its border, so that what changes across the face does not
+//! change along a line.
+
+use fgm_core::{Polygon, Role, bead};
+
+use crate::{
+    GapOptions, InfillOptions, Inset, Path, Pattern, gap_fill, infill,
+    walls::{loops, peel::peel},
+};
+
+/// More loops than any face has: a backstop, 10 m of loops 0.1 mm apart.
+const MOST_LOOPS: usize = 100_000;
+
+/// What lies inside the first loop of a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum FaceFill {
+    /// More loops, until nothing is left.
+    #[default]
+    Concentric,
+    /// Straight lines.
+    Rectilinear,
+}
+
+/// How a face is filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AgainstOptions {
+    /// Width of a bead, mm.
+    pub width: f64,
+    /// Layer height, mm.
+    pub height: f64,
+    /// What lies inside the first loop.
+    pub fill: FaceFill,
+    /// The narrowest bead for thin places, mm.
+    pub min_width: f64,
+    /// The widest bead for thin places, mm.
+    pub max_width: f64,
+    /// Direction of straight lines, radians.
+    pub angle: f64,
+    /// The layer, from 0: straight lines turn by a quarter on every other one.
+    pub layer: usize,
+}
+
+impl AgainstOptions {
+    /// Loops of one width; thin places take beads of 0.6 to 1.6 times that.
+    pub fn new(width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            fill: FaceFill::Concentric,
+            min_width: 0.6 * width,
+            max_width: 1.6 * width,
+            angle: 0.0,
+            layer: 0,
+        }
+    }
+}
+
+/// Fills a face whole: strategy 2 of the gradient-slicing paper (its algorithm 4).
+///
+/// The first loop lies half a [spacing](bead::spacing) inside the face, the next ones a spacing
+/// further: beads of neighbouring faces then share out the volume between them, without gap or
+/// overlap. Faces are to be cut from an outline shrunk by `(width - spacing) / 2`; the outermost
+/// bead then lies half its width inside the true outline.
+///
+/// What the loops leave, and faces too thin for loops, takes one or two beads of varying width
+/// ([`gap_fill`]). Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
+pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) -> Vec<Path> {
+    let AgainstOptions { width, height, .. } = *options;
+    let spacing = bead::spacing(width, height);
+    let rectilinear = options.fill == FaceFill::Rectilinear;
+    let most = if rectilinear { 1 } else { MOST_LOOPS };
+    let peel = peel(face, spacing, most, inset);
+    let mut out = loops(&peel.loops, width, |_| Role::SolidInfill);
+    if rectilinear {
+        let lines = InfillOptions {
+            pattern: Pattern::Rectilinear,
+            density: 1.0,
+            angle: options.angle,
+            width,
+            height,
+            z: 0.0,
+            layer: options.layer,
+            role: Role::SolidInfill,
+        };
+        out.extend(infill(&peel.rest, &lines, inset));
+    }
+    let AgainstOptions { min_width, max_width, .. } = *options;
+    out.extend(gap_fill(&peel.thin, &GapOptions { width, height, min_width, max_width }));
+    out
+}
+
+#[cfg(test)]
+#[path = "against_tests.rs"]
+mod tests;

@@ -1,0 +1,166 @@
+//! Beads of varying width along the middle of what is too thin for loops.
+
+mod chains;
+mod mesh;
+
+use fgm_core::{Point2, Polygon, Role, bead};
+
+use crate::{Path, inset::simplify};
+use chains::Chain;
+
+/// How far a middle line may be straightened, mm.
+const STRAIGHTEN: f64 = 5e-3;
+/// The share by which thickness may vary within one bead of constant width.
+const STEP: f64 = 0.2;
+
+/// How gaps are filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapOptions {
+    /// Width of an ordinary bead, mm.
+    pub width: f64,
+    /// Layer height, mm.
+    pub height: f64,
+    /// The narrowest bead the nozzle lays, mm; narrower gaps stay open.
+    pub min_width: f64,
+    /// The widest bead the nozzle lays, mm; wider gaps take two beads or more.
+    pub max_width: f64,
+}
+
+/// Beads along the middle of thin regions.
+///
+/// The volume of the beads is the region's, less its ends and what is narrower than `min_width`.
+/// A stretch thicker than `max_width` takes several beads side by side. Paths are open or closed,
+/// of [`Role::GapFill`], and each of one width; where the thickness changes a new path begins at
+/// the end of the last.
+///
+/// The middle is that of a constrained Delaunay triangulation: the midpoints of the edges that
+/// cross the region, an approximation of the medial axis that is exact between parallel sides.
+/// Meant for regions up to about three beads thick; thicker ones are filled, but not well.
+pub fn gap_fill(region: &[Polygon], options: &GapOptions) -> Vec<Path> {
+    let fill = Fill::new(options);
+    let mut out = Vec::new();
+    for polygon in region {
+        let Some(polygon) = simplify::polygon(polygon, 1e-3) else { continue };
+        let mesh = mesh::Mesh::new(&polygon, 1.5 * fill.spacing);
+        for chain in chains::chains(mesh) {
+            fill.chain(&chain, &mut out);
+        }
+    }
+    out
+}
+
+struct Fill {
+    /// Distance between ordinary lines.
+    spacing: f64,
+    /// What a bead's width has over the spacing it fills.
+    round: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Fill {
+    fn new(options: &GapOptions) -> Self {
+        let spacing = bead::spacing(options.width, options.height);
+        let round = options.width - spacing;
+        let least = bead::spacing(options.min_width, options.height);
+        let most = bead::spacing(options.max_width, options.height).max(least);
+        Self { spacing, round, least, most }
+    }
+
+    /// How many beads fill a thickness; 0 where it is too thin for one.
+    fn beads(&self, thickness: f64) -> usize {
+        if thickness < self.least {
+            return 0;
+        }
+        let one = self.most.min(1.6 * self.spacing);
+        let even = (thickness / self.spacing - 0.1).round() as usize;
+        if thickness <= one { 1 } else { even.clamp(2, 64) }
+    }
+
+    fn chain(&self, chain: &Chain, out: &mut Vec<Path>) {
+        if chain.gates.len() < 2 || chain.length() < 0.5 * self.spacing {
+            return;
+        }
+        let thickness = chain.smooth_thickness(2.0 * self.spacing);
+        for (from, to, beads) in self.runs(chain, &thickness) {
+            if beads == 0 {
+                continue;
+            }
+            let whole = chain.closed && from == 0 && to == thickness.len();
+            for bead in 0..beads {
+                let share = (2 * bead + 1) as f64 / (2 * beads) as f64;
+                let points = chain.line(share, from, to);
+                let widths: Vec<f64> =
+                    thickness[from..to].iter().map(|t| t / beads as f64).collect();
+                self.split(&points, &widths, whole, out);
+            }
+        }
+    }
+
+    /// Stretches of a chain with one number of beads. Short ones join the one before, so that
+    /// beads do not begin and end all the time.
+    fn runs(&self, chain: &Chain, thickness: &[f64]) -> Vec<(usize, usize, usize)> {
+        let mut runs: Vec<(usize, usize, usize)> = Vec::new();
+        for (i, &t) in thickness.iter().enumerate() {
+            let beads = self.beads(t);
+            match runs.last_mut() {
+                Some(run) if run.2 == beads => run.1 = i + 1,
+                _ => runs.push((i, i + 1, beads)),
+            }
+        }
+        let mut out: Vec<(usize, usize, usize)> = Vec::new();
+        for run in runs {
+            let length: f64 = (run.0..run.1).map(|i| chain.step(i)).sum();
+            match out.last_mut() {
+                Some(last) if last.2 == run.2 => last.1 = run.1,
+                Some(last) if length < 3.0 * self.spacing && last.2 > 0 && run.2 > 0 => {
+                    last.1 = run.1;
+                }
+                _ => out.push(run),
+            }
+        }
+        out
+    }
+
+    /// Cuts a line where its width has changed; writes the parts.
+    fn split(&self, points: &[Point2], widths: &[f64], closed: bool, out: &mut Vec<Path>) {
+        let mut start = 0;
+        while start < widths.len() {
+            let (mut low, mut high) = (widths[start], widths[start]);
+            let mut end = start + 1;
+            while let Some(&w) = widths.get(end) {
+                (low, high) = (low.min(w), high.max(w));
+                if high > low * (1.0 + STEP) {
+                    break;
+                }
+                end += 1;
+            }
+            let closed = closed && start == 0 && end == widths.len();
+            self.push(&points[start..=end], &widths[start..end], closed, out);
+            start = end;
+        }
+    }
+
+    fn push(&self, points: &[Point2], widths: &[f64], closed: bool, out: &mut Vec<Path>) {
+        let steps = || points.windows(2).map(|w| w[0].distance(w[1]));
+        let area: f64 = steps().zip(widths).map(|(l, w)| l * w).sum();
+        let length: f64 = steps().sum();
+        if length < 1e-3 {
+            return;
+        }
+        let fills = area / length;
+        let mut line = Vec::with_capacity(points.len());
+        simplify::line(points, false, STRAIGHTEN, &mut line);
+        if closed && line.len() > 3 {
+            line.pop();
+        }
+        let width = fills + self.round;
+        let closed = closed && line.len() > 2;
+        let turns = Vec::new();
+        out.push(Path { points: line, closed, role: Role::GapFill, width, turn: 0, turns });
+    }
+}
+
+#[cfg(test)]
+#[path = "gap_tests.rs"]
+mod tests;

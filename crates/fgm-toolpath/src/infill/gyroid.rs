@@ -1,0 +1,129 @@
+//! The gyroid `sin x cos y + sin y cos z + sin z cos x = 0`, one layer at a time.
+//!
+//! At one height it is solved for `y` where `|cos z|` is the greater, else for `x`: either way
+//! two continuous branches a period, drawn as functions of the other coordinate.
+
+use std::f64::consts::TAU;
+
+use fgm_core::{Bounds2, Point2, Polygon, Ring};
+
+use super::InfillOptions;
+use crate::{Inset, Path, inset::grid::EdgeGrid, inset::simplify};
+
+/// Length of line in a unit of area, for a period of 2 pi, averaged over z.
+const LENGTH_PER_AREA: f64 = 0.3913;
+/// Steps in a period.
+const STEPS: f64 = 48.0;
+/// How far lines may be straightened, mm.
+const STRAIGHTEN: f64 = 0.01;
+
+pub(super) fn lines(region: &[Polygon], options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
+    let centres = inset.inset(region, 0.5 * options.spacing());
+    let axis = Point2::from_angle(options.angle);
+    let back = axis * Point2::new(1.0, -1.0);
+    let edges: Vec<_> = centres
+        .iter()
+        .flat_map(Polygon::rings)
+        .flat_map(Ring::edges)
+        .map(|(a, b)| (back.rotate(a), back.rotate(b)))
+        .collect();
+    let bounds = Bounds2::of(edges.iter().map(|e| e.0));
+    if !bounds.is_finite() {
+        return Vec::new();
+    }
+    let scale = LENGTH_PER_AREA * options.pitch();
+    let grid = EdgeGrid::new(edges, scale);
+    let mut out = Vec::new();
+    let waves = Waves::new(options.z / scale);
+    let (along, across) =
+        if waves.upright { (bounds.y(), bounds.x()) } else { (bounds.x(), bounds.y()) };
+    // A branch strays from its middle by less than a period.
+    let first = (across.lo / scale / TAU).floor() as i64 - 1;
+    let last = (across.hi / scale / TAU).ceil() as i64 + 1;
+    let step = TAU / STEPS;
+    // Beyond the bounds at both ends: lines begin and end outside.
+    let (from, to) =
+        ((along.lo / scale / step).floor() as i64, (along.hi / scale / step).ceil() as i64);
+    for (turn, period) in (first..=last).enumerate() {
+        for branch in 0..2u32 {
+            let points: Vec<Point2> = (from - 1..=to + 1)
+                .map(|i| {
+                    let t = i as f64 * step;
+                    let v = waves.at(t, branch) + period as f64 * TAU;
+                    if waves.upright { Point2::new(v, t) } else { Point2::new(t, v) }
+                })
+                .map(|p| p * scale)
+                .collect();
+            let turn = 2 * turn as u32 + branch;
+            inside(&points, &grid, |part| {
+                let mut line = Vec::with_capacity(part.len());
+                simplify::line(part, false, STRAIGHTEN, &mut line);
+                line.iter_mut().for_each(|p| *p = axis.rotate(*p));
+                out.push(Path {
+                    points: line,
+                    closed: false,
+                    role: options.role,
+                    width: options.width,
+                    turn,
+                    turns: Vec::new(),
+                });
+            });
+        }
+    }
+    out
+}
+
+/// The two branches at one height.
+struct Waves {
+    sin_z: f64,
+    cos_z: f64,
+    /// Whether lines run along y.
+    upright: bool,
+}
+
+impl Waves {
+    fn new(z: f64) -> Self {
+        let (sin_z, cos_z) = z.sin_cos();
+        Self { sin_z, cos_z, upright: cos_z.abs() < sin_z.abs() }
+    }
+
+    /// The value across at `t` along: of `p cos v + q sin v = r`.
+    fn at(&self, t: f64, branch: u32) -> f64 {
+        let (sin, cos) = t.sin_cos();
+        let (p, q, r) = if self.upright {
+            // Turned so that the angle below stays clear of its jump at pi.
+            let sign = self.sin_z.signum();
+            (sign * self.sin_z, sign * cos, -sign * sin * self.cos_z)
+        } else {
+            (sin, self.cos_z, -self.sin_z * cos)
+        };
+        let spread = (r / p.hypot(q)).clamp(-1.0, 1.0).acos();
+        let middle = q.atan2(p);
+        if branch == 0 { middle - spread } else { middle + spread }
+    }
+}
+
+/// Calls `emit` with every part of a line inside the grid's border; the line begins outside.
+fn inside(points: &[Point2], grid: &EdgeGrid, mut emit: impl FnMut(&[Point2])) {
+    let mut part: Vec<Point2> = Vec::new();
+    let mut shares = Vec::new();
+    let mut within = false;
+    for pair in points.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        shares.clear();
+        grid.crossings(a, b, &mut shares);
+        for &share in &shares {
+            part.push(a + (b - a) * share);
+            if within && part.len() > 1 {
+                emit(&part);
+            }
+            within = !within;
+            if !within {
+                part.clear();
+            }
+        }
+        if within {
+            part.push(b);
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Scan lines joined along the border into serpentines.
+
+use fgm_core::{Point2, Polygon, Ring, Role};
+
+use super::scan::{Crossing, Lattice};
+use crate::Path;
+
+/// The longest joining piece, in line pitches: longer ones would run beside a line.
+const LONGEST_JOIN: f64 = 4.0;
+/// Turns count from here, so that lines below zero have one too and parity is kept.
+const TURN_ZERO: i64 = 1 << 24;
+
+/// The lines of a lattice inside a region of bead centres, joined where the border leads from
+/// one line to the next.
+pub(super) fn serpentines(
+    centres: &[Polygon],
+    lattice: &Lattice,
+    width: f64,
+    role: Role,
+) -> Vec<Path> {
+    let rings: Vec<&Ring> = centres.iter().flat_map(Polygon::rings).collect();
+    let crossings = lattice.crossings(rings.iter().copied());
+    let mut joiner = Joiner::new(&rings, &crossings, lattice);
+    let mut out = Vec::new();
+    for line in 0..crossings.len() / 2 {
+        if !joiner.used[line] {
+            let (points, turns) = joiner.serpentine(line);
+            if let Some(&turn) = turns.first() {
+                out.push(Path { points, closed: false, role, width, turn, turns });
+            }
+        }
+    }
+    out
+}
+
+/// Lines are pairs of crossings: line `k` runs from crossing `2k` to `2k + 1`.
+struct Joiner<'a> {
+    rings: &'a [&'a Ring],
+    /// Length of each ring up to each vertex, and the whole at the end.
+    lengths: Vec<Vec<f64>>,
+    crossings: &'a [Crossing],
+    lattice: &'a Lattice,
+    /// The crossing after and before each on its ring.
+    after: Vec<u32>,
+    before: Vec<u32>,
+    used: Vec<bool>,
+}
+
+impl<'a> Joiner<'a> {
+    fn new(rings: &'a [&'a Ring], crossings: &'a [Crossing], lattice: &'a Lattice) -> Self {
+        let mut order: Vec<u32> = (0..crossings.len() as u32).collect();
+        let key = |i: &u32| &crossings[*i as usize];
+        order.sort_unstable_by(|a, b| {
+            let (c, d) = (key(a), key(b));
+            c.ring.cmp(&d.ring).then(c.at.total_cmp(&d.at)).then(a.cmp(b))
+        });
+        let mut after = vec![0; order.len()];
+        let mut before = vec![0; order.len()];
+        for same in order.chunk_by(|a, b| key(a).ring == key(b).ring) {
+            for (i, &this) in same.iter().enumerate() {
+                let next = same[(i + 1) % same.len()];
+                after[this as usize] = next;
+                before[next as usize] = this;
+            }
+        }
+        let lengths = rings.iter().map(|r| cumulative(r)).collect();
+        let used = vec![false; crossings.len() / 2];
+        Self { rings, lengths, crossings, lattice, after, before, used }
+    }
+
+    /// The path that begins with a line.
+    fn serpentine(&mut self, first: usize) -> (Vec<Point2>, Vec<u32>) {
+        self.used[first] = true;
+        let (left, right) = (2 * first, 2 * first + 1);
+        let backward = self.join(right, 1).is_none() && self.join(left, 1).is_some();
+        let mut from = if backward { right } else { left };
+        let (mut points, mut turns) = (Vec::new(), Vec::new());
+        let mut way = 1;
+        loop {
+            let to = from ^ 1;
+            let (start, end) = (&self.crossings[from], &self.crossings[to]);
+            let turn = (start.line + TURN_ZERO).rem_euclid(1 << 31) as u32;
+            self.point(self.lattice.point(start), turn, &mut points, &mut turns);
+            self.point(self.lattice.point(end), turn, &mut points, &mut turns);
+            let Some((next, forward)) = self.join(to, way) else { break };
+            self.link(to, next, forward, turn, &mut points, &mut turns);
+            way = self.crossings[next].line - end.line;
+            self.used[next / 2] = true;
+            from = next;
+        }
+        (points, turns)
+    }
+
+    /// Adds a point and the segment to it, but none of no length.
+    fn point(&self, p: Point2, turn: u32, points: &mut Vec<Point2>, turns: &mut Vec<u32>) {
+        if let Some(last) = points.last() {
+            if last.distance_squared(p) < 1e-12 {
+                return;
+            }
+            turns.push(turn);
+        }
+        points.push(p);
+    }
+
+    /// The crossing to go on to from the end of a line, and whether forward along the ring; one
+    /// further in direction `way` is preferred.
+    fn join(&self, from: usize, way: i64) -> Option<(usize, bool)> {
+        let line = self.crossings[from].line;
+        let limit = LONGEST_JOIN * self.lattice.pitch;
+        [(self.after[from] as usize, true), (self.before[from] as usize, false)]
+            .into_iter()
+            .filter(|&(to, forward)| {
+                let step = (self.crossings[to].line - line).abs();
+                let free = self.used.get(to / 2) == Some(&false);
+                step == 1 && free && self.distance(from, to, forward) <= limit
+            })
+            .min_by(|&(a, f), &(b, g)| {
+                let turns_back = |to: usize| self.crossings[to].line - line != way;
+                let length = |to, forward| self.distance(from, to, forward);
+                turns_back(a).cmp(&turns_back(b)).then(length(a, f).total_cmp(&length(b, g)))
+            })
+    }
+
+    fn along(&self, crossing: usize) -> f64 {
+        let Crossing { ring, at, .. } = self.crossings[crossing];
+        let lengths = &self.lengths[ring as usize];
+        let edge = at as usize;
+        lengths[edge] + (lengths[edge + 1] - lengths[edge]) * at.fract()
+    }
+
+    /// Length of the border from one crossing to another on the same ring.
+    fn distance(&self, from: usize, to: usize, forward: bool) -> f64 {
+        let whole = self.lengths[self.crossings[from].ring as usize].last().copied();
+        let step = self.along(to) - self.along(from);
+        let step = if forward { step } else { -step };
+        if step < 0.0 { step + whole.unwrap_or(0.0) } else { step }
+    }
+
+    /// Adds the border's corners between two crossings.
+    fn link(
+        &self,
+        from: usize,
+        to: usize,
+        forward: bool,
+        turn: u32,
+        points: &mut Vec<Point2>,
+        turns: &mut Vec<u32>,
+    ) {
+        let ring = &self.rings[self.crossings[from].ring as usize].points;
+        let n = ring.len();
+        let (a, b) = (self.crossings[from].at, self.crossings[to].at);
+        let (start, end) = (a as usize, b as usize);
+        // Going forward the first corner is the end of the edge, going back its beginning.
+        let wraps = if forward { b < a } else { b > a };
+        let corners = match (forward, wraps) {
+            (true, false) => end - start,
+            (true, true) => end + n - start,
+            (false, false) => start - end,
+            (false, true) => start + n - end,
+        };
+        for i in 0..corners {
+            let corner = if forward { start + 1 + i } else { start + n - i };
+            self.point(ring[corner % n], turn, points, turns);
+        }
+    }
+}
+
+fn cumulative(ring: &Ring) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut out = vec![0.0];
+    out.extend(ring.edges().map(|(a, b)| {
+        sum += a.distance(b);
+        sum
+    }));
+    out
+}

@@ -1,0 +1,51 @@
+use std::fmt;
+use std::str::FromStr;
+
+use crate::ToolpathError;
+
+/// The arrangements of infill lines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Pattern {
+    /// Parallel lines, turned by a quarter on every other layer.
+    #[default]
+    Rectilinear,
+    /// Lines both ways on every layer.
+    Grid,
+    /// Loops along the border.
+    Concentric,
+    /// A triply periodic surface without straight lines: equally strong every way.
+    Gyroid,
+}
+
+impl Pattern {
+    /// Every pattern.
+    pub const ALL: [Self; 4] = [Self::Rectilinear, Self::Grid, Self::Concentric, Self::Gyroid];
+
+    /// Its name in settings.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rectilinear => "rectilinear",
+            Self::Grid => "grid",
+            Self::Concentric => "concentric",
+            Self::Gyroid => "gyroid",
+        }
+    }
+}
+
+impl fmt::Display for Pattern {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// By the name, exactly.
+impl FromStr for Pattern {
+    type Err = ToolpathError;
+
+    fn from_str(name: &str) -> Result<Self, ToolpathError> {
+        let found = Self::ALL.into_iter().find(|p| p.name() == name);
+        found.ok_or_else(|| ToolpathError::UnknownPattern { name: name.into() })
+    }
+}

@@ -1,0 +1,148 @@
+//! The edges of a border in square cells, for asking what lies near.
+
+use fgm_core::{Bounds2, Point2};
+
+/// The most cells on a side: a few long edges must not make millions of cells.
+const MOST: f64 = 1024.0;
+
+/// Edges by cell, in one array a piece (no allocation a cell).
+pub(crate) struct EdgeGrid {
+    origin: Point2,
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    starts: Vec<u32>,
+    items: Vec<u32>,
+    edges: Vec<(Point2, Point2)>,
+}
+
+impl EdgeGrid {
+    /// Sorts edges into cells of about `cell` mm.
+    pub(crate) fn new(edges: Vec<(Point2, Point2)>, cell: f64) -> Self {
+        let bounds = Bounds2::of(edges.iter().flat_map(|&(a, b)| [a, b]));
+        let size = if bounds.is_finite() { bounds.size().max_element() } else { 0.0 };
+        let cell = cell.max(size / MOST).max(1e-6);
+        let count = |length: f64| (length.max(0.0) / cell) as usize + 1;
+        let (columns, rows) = if bounds.is_finite() {
+            (count(bounds.size().x), count(bounds.size().y))
+        } else {
+            (1, 1)
+        };
+        let starts = vec![0; columns * rows + 1];
+        let mut grid =
+            Self { origin: bounds.min, cell, columns, rows, starts, items: Vec::new(), edges };
+        grid.fill();
+        grid
+    }
+
+    fn fill(&mut self) {
+        let mut starts = std::mem::take(&mut self.starts);
+        for &(a, b) in &self.edges {
+            self.cells_of(a, b, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 1..starts.len() {
+            starts[cell] += starts[cell - 1];
+        }
+        let mut next = starts.clone();
+        let mut items = vec![0; starts.last().map_or(0, |&n| n as usize)];
+        for (edge, &(a, b)) in self.edges.iter().enumerate() {
+            self.cells_of(a, b, |cell| {
+                items[next[cell] as usize] = edge as u32;
+                next[cell] += 1;
+            });
+        }
+        self.starts = starts;
+        self.items = items;
+    }
+
+    fn column(&self, x: f64) -> usize {
+        (((x - self.origin.x) / self.cell).max(0.0) as usize).min(self.columns - 1)
+    }
+
+    fn row(&self, y: f64) -> usize {
+        (((y - self.origin.y) / self.cell).max(0.0) as usize).min(self.rows - 1)
+    }
+
+    /// The cells an edge passes, row by row.
+    fn cells_of(&self, a: Point2, b: Point2, mut visit: impl FnMut(usize)) {
+        let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
+        let (first, last) = (self.row(low.y), self.row(high.y));
+        for row in first..=last {
+            let (mut from, mut to) = (low.x, high.x);
+            if first != last {
+                let bottom = self.origin.y + row as f64 * self.cell;
+                from = low.x + slope * (bottom - low.y).max(0.0);
+                to = low.x + slope * (bottom + self.cell - low.y).min(high.y - low.y);
+            }
+            // A hair wider, so that rounding at a cell's border loses no cell.
+            let hair = self.cell * 1e-6;
+            let (from, to) = (from.min(to) - hair, from.max(to) + hair);
+            for column in self.column(from)..=self.column(to) {
+                visit(row * self.columns + column);
+            }
+        }
+    }
+
+    /// Appends where the segment from `a` to `b` crosses edges, as shares of it, in order.
+    ///
+    /// A corner on the segment counts for one of its two edges, and likewise an end of the
+    /// segment on an edge for one of two segments that meet there, so that counting crossings
+    /// tells inside from outside.
+    pub(crate) fn crossings(&self, a: Point2, b: Point2, out: &mut Vec<f64>) {
+        let mut near: Vec<u32> = Vec::new();
+        self.cells_of(a, b, |cell| {
+            let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+            near.extend_from_slice(&self.items[range]);
+        });
+        near.sort_unstable();
+        near.dedup();
+        let first = out.len();
+        for edge in near {
+            let (c, d) = self.edges[edge as usize];
+            let (u, v) = (b - a, d - c);
+            let apart = (u.perp_dot(c - a) > 0.0) != (u.perp_dot(d - a) > 0.0);
+            let (from, to) = (v.perp_dot(a - c), v.perp_dot(b - c));
+            if apart && (from > 0.0) != (to > 0.0) {
+                out.push((from / (from - to)).clamp(0.0, 1.0));
+            }
+        }
+        out[first..].sort_unstable_by(f64::total_cmp);
+    }
+
+    /// Whether any edge passes closer than `distance` to the segment from `a` to `b`.
+    pub(crate) fn any_within(&self, a: Point2, b: Point2, distance: f64) -> bool {
+        let low = a.min(b) - distance;
+        let high = a.max(b) + distance;
+        for row in self.row(low.y)..=self.row(high.y) {
+            for column in self.column(low.x)..=self.column(high.x) {
+                let cell = row * self.columns + column;
+                let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+                for &item in &self.items[range] {
+                    let (c, d) = self.edges[item as usize];
+                    let apart = c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any();
+                    if !apart && segments_within(a, b, c, d, distance) {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+}
+
+fn segments_within(a: Point2, b: Point2, c: Point2, d: Point2, distance: f64) -> bool {
+    let squared = distance * distance;
+    let near = |p: Point2, q: Point2, r: Point2| {
+        let v = r - q;
+        let length = v.length_squared();
+        let at = if length > 0.0 { ((p - q).dot(v) / length).clamp(0.0, 1.0) } else { 0.0 };
+        p.distance_squared(q + v * at) < squared
+    };
+    let crossing = || {
+        let (u, v) = (b - a, d - c);
+        let sides = (u.perp_dot(c - a) > 0.0) != (u.perp_dot(d - a) > 0.0);
+        sides && (v.perp_dot(a - c) > 0.0) != (v.perp_dot(b - c) > 0.0)
+    };
+    near(a, c, d) || near(b, c, d) || near(c, a, b) || near(d, a, b) || crossing()
+}

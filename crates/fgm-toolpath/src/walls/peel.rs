@@ -1,0 +1,82 @@
+//! Taking a region apart from its border inward: loops where two beads fit side by side, thin
+//! rests where not.
+
+use fgm_core::Polygon;
+
+use crate::{Inset, region};
+
+/// Half the thickness, in line spacings, below which a region takes no loop. A loop then leaves
+/// at least 0.6 spacings between its inner sides, room for a bead of the least width, and what
+/// takes no loop is at most 2.6 spacings thick, filled by one or two beads.
+const HALF_LOOP: f64 = 1.3;
+/// How far a thin rest stands off the beads beside it, mm, so that rounding makes no slivers.
+const STAND_OFF: f64 = 5e-3;
+
+/// A region taken apart.
+#[derive(Debug, Default)]
+pub(crate) struct Peel {
+    /// Loops, as the regions they run around, from outside to inside: the centre lines of beads.
+    pub(crate) loops: Vec<Vec<Polygon>>,
+    /// What is too thin for loops.
+    pub(crate) thin: Vec<Polygon>,
+    /// What lies inside the last loops.
+    pub(crate) rest: Vec<Polygon>,
+}
+
+/// Peels loops of beads `spacing` wide off a region: at most `most`, each half a spacing inside
+/// the border of what is left.
+pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn Inset) -> Peel {
+    let mut out = Peel::default();
+    if !(spacing > 0.0 && spacing.is_finite()) {
+        return out;
+    }
+    let mut now = region.to_vec();
+    for _ in 0..most {
+        if now.is_empty() {
+            return out;
+        }
+        let mut loops = Vec::new();
+        let mut next = Vec::new();
+        for polygon in now {
+            step(polygon, spacing, inset, &mut loops, &mut next, &mut out.thin);
+        }
+        if !loops.is_empty() {
+            out.loops.push(loops);
+        }
+        now = next;
+    }
+    out.rest = now;
+    out
+}
+
+fn step(
+    polygon: Polygon,
+    spacing: f64,
+    inset: &dyn Inset,
+    loops: &mut Vec<Polygon>,
+    next: &mut Vec<Polygon>,
+    thin: &mut Vec<Polygon>,
+) {
+    let half = HALF_LOOP * spacing;
+    if let Some(rings) = inset.nested(&polygon, half, &[0.5 * spacing, spacing]) {
+        if let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings) {
+            loops.push(centre);
+            next.push(inner);
+            return;
+        }
+    }
+    let polygon = [polygon];
+    let core = inset.inset(&polygon, half);
+    if core.is_empty() {
+        thin.extend(polygon);
+        return;
+    }
+    // Grown back the core would have mitred corners where the border is round, so it only says
+    // where the loops run; they keep their distance from the true border.
+    let fits = inset.inset(&core, 0.5 * spacing + STAND_OFF - half);
+    let around = region::intersection(&inset.inset(&polygon, 0.5 * spacing), &fits);
+    let covered = inset.inset(&around, -0.5 * spacing - STAND_OFF);
+    thin.extend(region::difference(&polygon, &covered));
+    next.extend(inset.inset(&around, 0.5 * spacing));
+    loops.extend(around);
+}
