@@ -1,0 +1,181 @@
+use super::*;
+use proptest::prelude::*;
+
+fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
+    let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
+    Piece { points, role, width: 0.4, color: ColorId(color) }
+}
+
+fn line(points: &[(f64, f64)]) -> Piece {
+    piece(points, 0, Role::Infill)
+}
+
+/// Pieces as text: `color:x,y x,y`.
+fn told(pieces: &[Piece]) -> String {
+    let piece = |p: &Piece| {
+        let points: Vec<_> = p.points.iter().map(|q| format!("{},{}", q.x, q.y)).collect();
+        format!("{}:{}", p.color.0, points.join(" "))
+    };
+    pieces.iter().map(piece).collect::<Vec<_>>().join(" | ")
+}
+
+fn ids(colors: &[u16]) -> Vec<ColorId> {
+    colors.iter().copied().map(ColorId).collect()
+}
+
+const SQUARE: [(f64, f64); 5] = [(1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0), (1.0, 1.0)];
+
+#[test]
+fn orders() {
+    let (a, b) = ([(0.0, 0.0), (1.0, 0.0)], [(3.0, 0.0), (1.5, 0.0)]);
+    for (pieces, colors, want) in [
+        (vec![], &[0][..], ""),
+        // From either end, the nearest first.
+        (vec![line(&b), line(&a)], &[0], "0:0,0 1,0 | 0:1.5,0 3,0"),
+        // Colour by colour; colours not asked for come last.
+        (
+            vec![
+                piece(&a, 7, Role::Infill),
+                piece(&a, 0, Role::Infill),
+                piece(&b, 2, Role::Infill),
+            ],
+            &[2, 0],
+            "2:1.5,0 3,0 | 0:1,0 0,0 | 7:0,0 1,0",
+        ),
+        // A loop from its nearest vertex, in its own direction.
+        (
+            vec![line(&[(3.0, 3.0), (4.0, 3.0)]), line(&SQUARE), line(&[(1.4, 0.0), (2.0, 0.5)])],
+            &[0],
+            "0:1.4,0 2,0.5 | 0:2,1 2,2 1,2 1,1 2,1 | 0:3,3 4,3",
+        ),
+        // Meeting ends are a chain, entered at its end, not at its nearest joint.
+        (
+            vec![line(&[(5.0, 0.0), (0.0, 1.0)]), line(&[(0.0, 1.0), (-1.0, 5.0)])],
+            &[0],
+            "0:5,0 0,1 | 0:0,1 -1,5",
+        ),
+        // A purge goes before the part, wherever it is.
+        (
+            vec![line(&a), piece(&[(50.0, 0.0), (60.0, 0.0)], 0, Role::PurgeTower)],
+            &[0],
+            "0:50,0 60,0 | 0:1,0 0,0",
+        ),
+    ] {
+        assert_eq!(told(&order(pieces, &ids(colors), Point2::ZERO)), want);
+    }
+}
+
+#[test]
+fn seams_and_roles() {
+    let outer = || piece(&SQUARE, 0, Role::OuterWall);
+    let spike = [(0.0, 0.0), (2.0, 0.0), (5.0, 0.5), (2.0, 1.0), (0.0, 1.0), (0.0, 0.0)];
+    for (seam, pieces, want) in [
+        (Seam::Nearest, vec![outer()], "0:1,1 2,1 2,2 1,2 1,1"),
+        (Seam::Rear, vec![outer()], "0:2,2 1,2 1,1 2,1 2,2"),
+        (Seam::Sharpest, vec![piece(&spike, 0, Role::OuterWall)], "0:5,0.5 2,1 0,1 0,0 2,0 5,0.5"),
+        (Seam::Rear, vec![piece(&SQUARE, 0, Role::InnerWall)], "0:1,1 2,1 2,2 1,2 1,1"),
+    ] {
+        let options = OrderOptions { seam, ..OrderOptions::default() };
+        assert_eq!(told(&order_with(pieces, &[], Point2::ZERO, &options)), want);
+    }
+    let all = [Role::Infill, Role::OuterWall, Role::InnerWall];
+    for (roles, want) in [
+        (RoleOrder::OuterFirst, [Role::OuterWall, Role::InnerWall, Role::Infill]),
+        (RoleOrder::InnerFirst, [Role::InnerWall, Role::OuterWall, Role::Infill]),
+    ] {
+        let pieces = all.iter().map(|&r| piece(&[(0.0, 0.0), (1.0, 0.0)], 0, r)).collect();
+        let options = OrderOptions { roles, ..OrderOptions::default() };
+        let got = order_with(pieces, &[], Point2::ZERO, &options);
+        assert_eq!(got.iter().map(|p| p.role).collect::<Vec<_>>(), want);
+    }
+}
+
+#[test]
+fn odd_pieces_are_kept() {
+    let pieces = vec![
+        line(&[]),
+        line(&[(1.0, 1.0)]),
+        line(&[(f64::NAN, 0.0), (1.0, f64::INFINITY)]),
+        line(&[(2.0, 2.0), (2.0, 2.0)]),
+        line(&[(2.0, 2.0), (2.0, 2.0), (2.0, 2.0)]),
+        line(&[(f64::INFINITY, 0.0), (1.0, 0.0)]),
+        line(&[(0.0, 0.0), (1.0, 0.0)]),
+    ];
+    let got = order(pieces, &ids(&[0]), Point2::new(f64::NAN, 0.0));
+    let mut counts: Vec<_> = got.iter().map(|p| p.points.len()).collect();
+    counts.sort_unstable();
+    assert_eq!(counts, [0, 1, 2, 2, 2, 2, 3]);
+}
+
+/// A piece without its direction or start.
+fn bare(piece: &Piece) -> (u16, u8, Vec<(u64, u64)>) {
+    let mut points = piece.points.clone();
+    if piece.is_loop() {
+        points.pop();
+    }
+    let mut points: Vec<_> = points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect();
+    points.sort_unstable();
+    (piece.color.0, piece.role as u8, points)
+}
+
+fn any_pieces() -> impl Strategy<Value = Vec<Piece>> {
+    let along = prop_oneof![(0..6i32).prop_map(f64::from), 0.0..6.0f64];
+    let one = (prop::collection::vec((along.clone(), along), 0..6), 0..4u16, any::<bool>());
+    let role = prop::sample::select(&Role::ALL[..]);
+    prop::collection::vec((one, role), 0..40).prop_map(|pieces| {
+        pieces
+            .into_iter()
+            .map(|((mut points, color, closed), role)| {
+                if closed {
+                    points.extend(points.first().copied());
+                }
+                piece(&points, color, role)
+            })
+            .collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn every_piece_is_kept_once(
+        pieces in any_pieces(),
+        colors in prop::collection::vec(0..5u16, 0..5),
+        improve in 0..100u32,
+    ) {
+        let options = OrderOptions { improve, ..OrderOptions::default() };
+        let run = || order_with(pieces.clone(), &ids(&colors), Point2::ZERO, &options);
+        let got = run();
+        prop_assert_eq!(&got, &run());
+        let sorted = |pieces: &[Piece]| {
+            let mut all: Vec<_> = pieces.iter().map(bare).collect();
+            all.sort();
+            all
+        };
+        prop_assert_eq!(sorted(&got), sorted(&pieces));
+        let lengths = |pieces: &[Piece]| pieces.iter().map(Piece::length).sum::<f64>();
+        prop_assert!((lengths(&got) - lengths(&pieces)).abs() < 1e-9);
+        // Colours in one block each, in the order asked for.
+        let mut blocks: Vec<_> = got.iter().map(|p| p.color).collect();
+        blocks.dedup();
+        let rank = |c: &ColorId| colors.iter().position(|&k| k == c.0).unwrap_or(usize::MAX);
+        prop_assert!(blocks.windows(2).all(|w| (rank(&w[0]), w[0]) < (rank(&w[1]), w[1])));
+    }
+
+    #[test]
+    fn improving_never_lengthens_the_travels_of_one_colour(pieces in any_pieces()) {
+        let one: Vec<_> =
+            pieces.into_iter().map(|p| Piece { color: ColorId(0), role: Role::Infill, ..p }).collect();
+        let travel = |improve| {
+            let options = OrderOptions { improve, ..OrderOptions::default() };
+            let got = order_with(one.clone(), &[], Point2::ZERO, &options);
+            let mut at = Point2::ZERO;
+            let mut sum = 0.0;
+            for p in got.iter().filter(|p| p.points.len() > 1) {
+                sum += at.distance(p.points[0]);
+                at = p.points[p.points.len() - 1];
+            }
+            sum
+        };
+        prop_assert!(travel(64) <= travel(0) + 1e-6);
+    }
+}
