@@ -1,0 +1,295 @@
+use fgm_core::{Role, bead};
+
+/// Which firmware's language is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum DialectName {
+    /// Marlin, `M163` for each motor and `M164`: works on every Marlin with mixing.
+    #[default]
+    MarlinMixing,
+    /// Marlin, one `M165`: needs a firmware built with `DIRECT_MIXING_IN_G1`.
+    MarlinDirect,
+    /// RepRapFirmware, `M567`.
+    RepRap,
+    /// `T<n>`, as Marlin and Klipper's macros take it.
+    ToolChange,
+    /// Prusa XL, park and pick.
+    PrusaXl,
+    /// Kalico, `SET_MIXING_EXTRUDER` after `M400`.
+    Kalico,
+    /// Repetier, whole `M163` weights and `M164`.
+    Repetier,
+    /// `M104` for the temperature, flow folded into E or as `M221`.
+    Foaming,
+}
+
+impl DialectName {
+    /// Decimals of a ratio that the firmware can tell apart.
+    pub fn ratio_decimals(self) -> u32 {
+        if self == Self::Repetier { 3 } else { 4 }
+    }
+}
+
+macro_rules! part {
+    ($(#[$doc:meta])* $name:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty = $default:expr,)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+        pub struct $name {
+            $($(#[$field_doc])* pub $field: $type,)*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $default,)* }
+            }
+        }
+    };
+}
+
+part!(
+    /// The firmware's language and what it can be told.
+    DialectOptions {
+        /// Which language.
+        name: DialectName = DialectName::MarlinMixing,
+        /// The virtual tool (Marlin, Repetier) or tool (RepRapFirmware) that is rewritten at each
+        /// change.
+        virtual_tool: u32 = 0,
+        /// Weights of the motors before the filaments'. An auger that turns with every flow is
+        /// motor 0 of weight 1, and the filaments start at motor 1: `[1.0]`.
+        leading_weights: Vec<f64> = Vec::new(),
+    }
+);
+
+part!(
+    /// Extrusion between a command and its arrival at the nozzle's tip: a volume, or the length of
+    /// a bead of a given section.
+    LeadOptions {
+        /// The volume, mm³; goes before `length`.
+        volume: Option<f64> = None,
+        /// The length of the bead that was measured, mm.
+        length: Option<f64> = None,
+        /// That bead's height, mm.
+        layer_height: f64 = 0.2,
+        /// That bead's width, mm.
+        bead_width: f64 = 0.4,
+    }
+);
+
+impl LeadOptions {
+    /// The volume, mm³: `length * A` with the section of [`bead::area`] where only a length is
+    /// given, 0 where nothing is.
+    pub fn volume(&self) -> f64 {
+        let measured = || self.length.map(|l| l * bead::area(self.bead_width, self.layer_height));
+        self.volume.or_else(measured).unwrap_or(0.0)
+    }
+}
+
+part!(
+    /// Temperatures, °C.
+    Temperatures {
+        /// The nozzle's.
+        nozzle: f64 = 210.0,
+        /// The nozzle's on the first layer.
+        first_layer: f64 = 215.0,
+        /// The bed's; 0 for none.
+        bed: f64 = 60.0,
+        /// The bed's on the first layer.
+        first_layer_bed: f64 = 60.0,
+        /// A head's while another one prints; left hot where not given.
+        standby: Option<f64> = None,
+        /// Nothing is extruded below this.
+        min_extrusion: f64 = 170.0,
+    }
+);
+
+part!(
+    /// A filament that foams with temperature.
+    Foaming {
+        /// Temperature for all of the first material (not foamed), °C.
+        low: f64 = 190.0,
+        /// Temperature for all of the second (foamed most), °C.
+        high: f64 = 225.0,
+        /// Flow as a polynomial of the temperature in °C: coefficients from the constant up, whose
+        /// value is a factor (1 = 100 %).
+        flow: Vec<f64> = vec![1.0],
+        /// Temperatures are whole multiples of this, °C: firmwares keep whole degrees.
+        step: f64 = 1.0,
+        /// Whether the flow is told by `M221` in place of being folded into E.
+        flow_command: bool = false,
+    }
+);
+
+impl Foaming {
+    /// The temperature for a share of the second material, °C: linear, rounded to the step.
+    pub fn temperature(&self, share: f64) -> f64 {
+        let exact = self.low + (self.high - self.low) * share.clamp(0.0, 1.0);
+        if self.step > 0.0 { (exact / self.step).round_ties_even() * self.step } else { exact }
+    }
+
+    /// The factor on the fed filament at a temperature.
+    pub fn flow_at(&self, celsius: f64) -> f64 {
+        self.flow.iter().rev().fold(0.0, |sum, c| sum * celsius + c)
+    }
+}
+
+part!(
+    /// Speeds, mm/s.
+    Speeds {
+        /// The wall that is seen.
+        outer_wall: f64 = 30.0,
+        /// The walls behind it.
+        inner_wall: f64 = 45.0,
+        /// Sparse filling.
+        infill: f64 = 60.0,
+        /// Full filling inside.
+        solid_infill: f64 = 50.0,
+        /// Full filling with nothing above.
+        top_skin: f64 = 40.0,
+        /// Full filling with nothing below.
+        bottom_skin: f64 = 40.0,
+        /// Filling over air.
+        bridge: f64 = 25.0,
+        /// Thin beads.
+        gap_fill: f64 = 25.0,
+        /// Lines around the part.
+        skirt: f64 = 40.0,
+        /// Supports.
+        support: f64 = 50.0,
+        /// The purge tower.
+        purge_tower: f64 = 50.0,
+        /// Beads of the first layer go no faster than this.
+        first_layer: f64 = 20.0,
+        /// Moves without extrusion.
+        travel: f64 = 150.0,
+        /// Moves of z alone.
+        z: f64 = 10.0,
+    }
+);
+
+impl Speeds {
+    /// The speed of beads, mm/s.
+    pub fn of(&self, role: Role) -> f64 {
+        match role {
+            Role::OuterWall => self.outer_wall,
+            Role::InnerWall => self.inner_wall,
+            Role::Infill => self.infill,
+            Role::SolidInfill => self.solid_infill,
+            Role::TopSkin => self.top_skin,
+            Role::BottomSkin => self.bottom_skin,
+            Role::Bridge => self.bridge,
+            Role::GapFill => self.gap_fill,
+            Role::Skirt => self.skirt,
+            Role::Support => self.support,
+            Role::PurgeTower => self.purge_tower,
+        }
+    }
+}
+
+part!(
+    /// How a machine speeds up and takes corners; only the time estimate goes by it.
+    MotionLimits {
+        /// Acceleration while extruding, mm/s².
+        acceleration: f64 = 1000.0,
+        /// Acceleration of travels, mm/s².
+        travel_acceleration: f64 = 1500.0,
+        /// How far a corner may be cut, mm: the speed through it follows.
+        junction_deviation: f64 = 0.02,
+        /// Greatest speed of the z axis, mm/s.
+        max_z_speed: f64 = 12.0,
+    }
+);
+
+part!(
+    /// Pulling back the filament for travels.
+    Retraction {
+        /// Filament pulled back, mm; 0 for never.
+        length: f64 = 1.0,
+        /// Its speed, mm/s.
+        speed: f64 = 35.0,
+        /// Travels shorter than this do without, mm.
+        min_travel: f64 = 2.0,
+        /// How far the nozzle is lifted for the travel, mm.
+        z_hop: f64 = 0.0,
+    }
+);
+
+part!(
+    /// The part's cooling: shares of full speed, 0..=1.
+    Fan {
+        /// From `from_layer` on.
+        speed: f64 = 1.0,
+        /// Over bridges.
+        bridge: f64 = 1.0,
+        /// The first layer with the fan on, from 0.
+        from_layer: u32 = 1,
+    }
+);
+
+part!(
+    /// Changing heads.
+    ToolChanging {
+        /// Filament pulled back before a head is parked, mm.
+        retraction: f64 = 10.0,
+        /// Filament pushed on top of that at a head's first use, mm.
+        prime: f64 = 0.0,
+        /// Lift before a change, mm.
+        z_hop: f64 = 1.0,
+        /// Time of one change, s, for the time estimate.
+        seconds: f64 = 10.0,
+    }
+);
+
+part!(
+    /// G-code around the print. `{variables}` are listed in the crate's documentation, `{{` is a
+    /// brace.
+    Templates {
+        /// Before the first layer: homing, heating, a purge line.
+        start: String = DEFAULT_START.into(),
+        /// After the last layer: heaters off, head away.
+        end: String = DEFAULT_END.into(),
+    }
+);
+
+const DEFAULT_START: &str = "\
+M140 S{bed_temperature}
+M104 S{nozzle_temperature}
+G28
+M190 S{bed_temperature}
+M109 S{nozzle_temperature}
+G92 E0
+";
+
+const DEFAULT_END: &str = "\
+M104 S0
+M140 S0
+M107
+G1 Z{park_z} F600
+G28 X
+M84
+";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_volume_goes_before_a_length() {
+        let mut lead = LeadOptions::default();
+        assert_eq!(lead.volume(), 0.0);
+        lead.length = Some(960.0);
+        assert!((lead.volume() - 68.559).abs() < 1e-3);
+        lead.volume = Some(5.0);
+        assert_eq!(lead.volume(), 5.0);
+    }
+
+    #[test]
+    fn temperatures_are_whole_steps() {
+        let foaming = Foaming { low: 190.0, high: 225.0, step: 1.0, ..Foaming::default() };
+        for (share, celsius) in [(0.0, 190.0), (0.51, 208.0), (1.0, 225.0), (2.0, 225.0)] {
+            assert_eq!(foaming.temperature(share), celsius);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+use std::io;
+
+use super::Writer;
+use crate::{Fixed, GcodeError};
+
+impl<W: io::Write> Writer<W> {
+    /// A new layer: tags, and what changes after the first one.
+    pub(super) fn layer(&mut self, z: f64, height: f64) -> Result<(), GcodeError> {
+        if !(height > 0.0 && height.is_finite()) {
+            return Err(GcodeError::Setting {
+                name: "layer height".into(),
+                value: height,
+                expected: "a number above 0",
+            });
+        }
+        let top = self.position.place_z(z)?;
+        self.position.layer_z = top;
+        self.position.max_z = self.position.max_z.max(top);
+        self.bead.layer(height);
+        self.summary.layers += 1;
+
+        self.dialect.comment("LAYER_CHANGE", &mut self.text);
+        for (tag, value) in [("Z", top), ("HEIGHT", Fixed::round(height)?)] {
+            let mut digits = Vec::new();
+            value.write_trimmed(&mut digits);
+            let text = format!("{tag}:{}", String::from_utf8_lossy(&digits));
+            self.dialect.comment(&text, &mut self.text);
+        }
+        self.progress();
+        let begun = self.summary.layers - 1;
+        if begun == 1 {
+            self.after_first_layer()?;
+        }
+        if begun == u64::from(self.options.fan.from_layer) {
+            self.dialect.fan(self.options.fan.speed, &mut self.text);
+        }
+        Ok(())
+    }
+
+    /// Other temperatures than the first layer's.
+    fn after_first_layer(&mut self) -> Result<(), GcodeError> {
+        let t = &self.options.temperatures;
+        let state = self.state(self.heads.color)?;
+        if state.temperature.is_none() && t.nozzle != t.first_layer {
+            self.dialect.temperature(state.tool, t.nozzle, false, &mut self.text);
+        }
+        if t.bed != t.first_layer_bed {
+            self.dialect.bed_temperature(t.bed, false, &mut self.text);
+        }
+        Ok(())
+    }
+
+    /// `M73`, by the share of the layers and the time they took.
+    fn progress(&mut self) {
+        let Some(total) = self.options.total_layers.filter(|n| *n > 0 && self.options.progress)
+        else {
+            return;
+        };
+        let done = (self.summary.layers - 1).min(u64::from(total)) as f64;
+        let total = f64::from(total);
+        self.text.raw("M73").int('P', (100.0 * done / total) as u32);
+        if done > 0.0 {
+            let left = self.time.seconds() / done * (total - done);
+            self.text.int('R', (left / 60.0).ceil() as u32);
+        }
+        self.text.end();
+    }
+}
