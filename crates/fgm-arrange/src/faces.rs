@@ -1,0 +1,153 @@
+use crate::predicate::by_place;
+use crate::topology::{FaceRecord, NONE, Topology};
+use fgm_core::Point2;
+use std::cmp::Ordering;
+
+/// The border of a face: a cycle of half-edges.
+#[derive(Clone, Copy, Debug)]
+struct Cycle {
+    half: u32,
+    /// Twice the area to its left, square steps: positive around a bounded face, not positive
+    /// around a component seen from outside.
+    twice_area: i128,
+    /// The face to its left.
+    face: u32,
+}
+
+/// Union-find with halving paths.
+struct Sets(Vec<u32>);
+
+impl Sets {
+    fn find(&mut self, mut a: u32) -> u32 {
+        while self.0[a as usize] != a {
+            let up = self.0[self.0[a as usize] as usize];
+            self.0[a as usize] = up;
+            a = up;
+        }
+        a
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+/// Sum of the cross products of successive points, and of the last with the first where `closed`:
+/// exact, whatever the size.
+pub(crate) fn twice_area(line: &[Point2], closed: bool) -> i128 {
+    let cross = |a: Point2, b: Point2| {
+        i128::from(a.x as i64) * i128::from(b.y as i64)
+            - i128::from(a.y as i64) * i128::from(b.x as i64)
+    };
+    let Some((&start, rest)) = line.split_first() else { return 0 };
+    let reach = rest.iter().fold(0.0, |m: f64, p| m.max((*p - start).abs().max_element()));
+    let Some(&end) = rest.last() else { return 0 };
+    let near = if reach < (1u64 << 30) as f64 {
+        // Products below 2^60: the common case, without 128-bit products.
+        let whole = |p: Point2| ((p.x - start.x) as i64, (p.y - start.y) as i64);
+        let one = |a: (i64, i64), b: (i64, i64)| i128::from(a.0 * b.1 - a.1 * b.0);
+        rest.windows(2).map(|w| one(whole(w[0]), whole(w[1]))).sum()
+    } else {
+        rest.windows(2).map(|w| cross(w[0] - start, w[1] - start)).sum::<i128>()
+    };
+    if closed { near } else { near + cross(start, end - start) }
+}
+
+impl Topology {
+    /// Walks the cycles, finds the faces they border, and puts components into the faces around
+    /// them.
+    pub(crate) fn find_faces(&mut self) {
+        let (mut cycles, mut cycle_of) = self.walk();
+        self.components = cycles.iter().filter(|c| c.twice_area <= 0).count();
+        if self.components > 1 {
+            self.nest(&mut cycles, &cycle_of);
+        }
+        for cycle in &mut cycle_of {
+            *cycle = cycles[*cycle as usize].face;
+        }
+        self.face = cycle_of;
+        self.record(&cycles);
+    }
+
+    fn walk(&self) -> (Vec<Cycle>, Vec<u32>) {
+        let areas: Vec<_> =
+            (0..self.ends.len()).map(|edge| twice_area(self.line(edge), false)).collect();
+        let mut cycle_of = vec![NONE; self.next.len()];
+        let (mut cycles, mut faces) = (Vec::new(), 0);
+        for half in 0..self.next.len() as u32 {
+            if cycle_of[half as usize] != NONE {
+                continue;
+            }
+            let mut sum = 0;
+            for h in self.cycle(half) {
+                cycle_of[h as usize] = cycles.len() as u32;
+                let area = areas[h as usize / 2];
+                sum += if h & 1 == 0 { area } else { -area };
+            }
+            let face = if sum > 0 { faces } else { NONE };
+            faces += u32::from(sum > 0);
+            cycles.push(Cycle { half, twice_area: sum, face });
+        }
+        (cycles, cycle_of)
+    }
+
+    /// Finds the face around each component: the one above the first edge straight below the
+    /// component's least point.
+    fn nest(&self, cycles: &mut [Cycle], cycle_of: &[u32]) {
+        let mut sets = Sets((0..self.vertices.len() as u32).collect());
+        for &[a, b] in &self.ends {
+            sets.join(a, b);
+        }
+        let component: Vec<_> = self.ends.iter().map(|ends| sets.find(ends[0])).collect();
+        let mut least: Vec<_> = self.vertices.clone();
+        for piece in &self.pieces {
+            let place = &mut least[component[piece.owner as usize] as usize];
+            for p in [self.points[piece.first as usize], self.points[piece.last as usize]] {
+                if by_place(p, *place) == Ordering::Less {
+                    *place = p;
+                }
+            }
+        }
+        let outer = |c: &Cycle| c.twice_area <= 0;
+        let mut order: Vec<_> = (0..cycles.len()).filter(|&c| outer(&cycles[c])).collect();
+        let place = |c: &Cycle| least[component[c.half as usize / 2] as usize];
+        order.sort_unstable_by(|&a, &b| by_place(place(&cycles[a]), place(&cycles[b])));
+        // What is hit belongs to a component that begins before this one, so its face is known.
+        for c in order {
+            let mine = component[cycles[c].half as usize / 2];
+            let below = self.below(place(&cycles[c]), |edge| component[edge as usize] != mine);
+            if let Some(half) = below {
+                cycles[c].face = cycles[cycle_of[half as usize] as usize].face;
+            }
+        }
+    }
+
+    fn record(&mut self, cycles: &[Cycle]) {
+        let mut holes: Vec<_> = Vec::new();
+        let mut areas = Vec::new();
+        for cycle in cycles {
+            if cycle.twice_area > 0 {
+                let (outer, area) = (cycle.half, 0.0);
+                self.faces.push(FaceRecord { outer, holes_start: 0, holes_end: 0, area });
+                areas.push(cycle.twice_area);
+            } else if cycle.face == NONE {
+                self.outlines.push(cycle.half);
+            } else {
+                holes.push((cycle.face, cycle.half, cycle.twice_area));
+            }
+        }
+        holes.sort_unstable();
+        let mut at = 0;
+        for (id, face) in self.faces.iter_mut().enumerate() {
+            face.holes_start = at as u32;
+            while let Some(&(_, half, area)) = holes.get(at).filter(|hole| hole.0 == id as u32) {
+                self.holes.push(half);
+                areas[id] += area;
+                at += 1;
+            }
+            face.holes_end = at as u32;
+            face.area = areas[id] as f64 * 0.5;
+        }
+    }
+}

@@ -1,0 +1,156 @@
+use fgm_core::{Bounds2, Point2};
+use std::ops::Range;
+
+/// Segments in a piece at most. Longer pieces make fewer boxes, shorter ones tighter boxes.
+const LONGEST: usize = 12;
+
+/// A run of segments that go one way in x and one way in y, so that its least rectangle, and that
+/// of every part of it, is given by its end points, and it does not meet itself.
+///
+/// After the monotone chains of JTS's `index.chain`, with bounded length.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    /// Index of the first point.
+    pub(crate) first: u32,
+    /// Index of the last point, above `first`.
+    pub(crate) last: u32,
+    /// The line that it is a part of.
+    pub(crate) owner: u32,
+}
+
+/// A bit each for going right, left, up and down.
+#[inline]
+fn heading(a: Point2, b: Point2) -> u8 {
+    u8::from(a.x < b.x)
+        | u8::from(a.x > b.x) << 1
+        | u8::from(a.y < b.y) << 2
+        | u8::from(a.y > b.y) << 3
+}
+
+/// Cuts the line through `points[first..=last]` into pieces.
+pub(crate) fn split(
+    points: &[Point2],
+    first: usize,
+    last: usize,
+    owner: u32,
+    out: &mut Vec<Piece>,
+) {
+    let mut start = first;
+    while start < last {
+        let end = (start + LONGEST).min(last);
+        let mut seen = heading(points[start], points[start + 1]);
+        let mut at = start + 1;
+        while at < end {
+            seen |= heading(points[at], points[at + 1]);
+            if seen & (seen >> 1) & 0b0101 != 0 {
+                break;
+            }
+            at += 1;
+        }
+        out.push(Piece { first: start as u32, last: at as u32, owner });
+        start = at;
+    }
+}
+
+/// The least rectangle around a segment.
+#[inline]
+pub(crate) fn around(a: Point2, b: Point2) -> Bounds2 {
+    Bounds2::new(a.min(b), a.max(b))
+}
+
+/// Whether two rectangles share a point.
+#[inline]
+pub(crate) fn overlap(a: &Bounds2, b: &Bounds2) -> bool {
+    a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y
+}
+
+/// Whether a segment comes within `margin` of a box, in x and in y; where the answer is close it is
+/// yes.
+#[inline]
+pub(crate) fn segment_reaches(a: Point2, b: Point2, bounds: &Bounds2, margin: f64) -> bool {
+    if !overlap(&around(a, b), &Bounds2::new(bounds.min - margin, bounds.max + margin)) {
+        return false;
+    }
+    let d = b - a;
+    let (centre, half) = ((bounds.min + bounds.max) * 0.5 - a, (bounds.max - bounds.min) * 0.5);
+    let (l, r) = (d.x * centre.y, d.y * centre.x);
+    let reach = d.x.abs() * (half.y + margin) + d.y.abs() * (half.x + margin);
+    (l - r).abs() <= reach + (l.abs() + r.abs() + reach) * 1e-12
+}
+
+impl Piece {
+    #[inline]
+    pub(crate) fn bounds(&self, points: &[Point2]) -> Bounds2 {
+        around(points[self.first as usize], points[self.last as usize])
+    }
+
+    /// The first points of its segments.
+    #[inline]
+    pub(crate) fn segments(&self) -> Range<usize> {
+        self.first as usize..self.last as usize
+    }
+
+    /// The segments whose rectangles reach into `window`: neighbours all, as the piece is monotone.
+    #[inline]
+    pub(crate) fn clip(&self, points: &[Point2], window: &Bounds2) -> Range<usize> {
+        let Range { mut start, mut end } = self.segments();
+        let reaches = |i: usize| overlap(&around(points[i], points[i + 1]), window);
+        while start < end && !reaches(start) {
+            start += 1;
+        }
+        while start < end && !reaches(end - 1) {
+            end -= 1;
+        }
+        start..end
+    }
+}
+
+/// Calls `found` with every pair of segments, one of each piece, whose rectangles share a point.
+#[inline]
+pub(crate) fn for_pairs(
+    (points, piece): (&[Point2], &Piece),
+    (others, other): (&[Point2], &Piece),
+    mut found: impl FnMut(usize, usize),
+) {
+    let mine = piece.clip(points, &other.bounds(others));
+    if mine.is_empty() {
+        return;
+    }
+    let theirs = other.clip(others, &around(points[mine.start], points[mine.end]));
+    for i in mine {
+        let bounds = around(points[i], points[i + 1]);
+        for j in theirs.clone() {
+            if overlap(&bounds, &around(others[j], others[j + 1])) {
+                found(i, j);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn pieces_cover_the_line_and_their_ends_bound_them(
+            line in prop::collection::vec((-5..5i32, -5..5i32), 2..60),
+        ) {
+            let points: Vec<_> =
+                line.iter().map(|&(x, y)| Point2::new(f64::from(x), f64::from(y))).collect();
+            let mut pieces = Vec::new();
+            split(&points, 0, points.len() - 1, 7, &mut pieces);
+            let mut at = 0;
+            for piece in &pieces {
+                prop_assert_eq!(piece.first, at);
+                prop_assert!(piece.last > piece.first && piece.segments().len() <= LONGEST);
+                let bounds = piece.bounds(&points);
+                let inside = |i: usize| bounds.contains(points[i]);
+                prop_assert!((piece.first as usize..=piece.last as usize).all(inside));
+                at = piece.last;
+            }
+            prop_assert_eq!(at as usize, points.len() - 1);
+        }
+    }
+}
