@@ -5,9 +5,11 @@ mod mesh;
 
 use fgm_core::{Point2, Polygon, Role, bead};
 
-use crate::{Path, inset::simplify};
+use crate::{ClipperInset, Inset, Path, inset::simplify};
 use chains::Chain;
 
+/// What is shaved off a gap's border before it is triangulated, mm.
+const HAIR: f64 = 2e-3;
 /// How far a middle line may be straightened, mm.
 const STRAIGHTEN: f64 = 5e-3;
 /// The share by which thickness may vary within one bead of constant width.
@@ -39,8 +41,8 @@ pub struct GapOptions {
 pub fn gap_fill(region: &[Polygon], options: &GapOptions) -> Vec<Path> {
     let fill = Fill::new(options);
     let mut out = Vec::new();
-    for polygon in region {
-        let Some(polygon) = simplify::polygon(polygon, 1e-3) else { continue };
+    // A hair less: rings that touch come apart, spikes of no width vanish.
+    for polygon in ClipperInset::default().inset(region, HAIR) {
         let mesh = mesh::Mesh::new(&polygon, 1.5 * fill.spacing);
         for chain in chains::chains(mesh) {
             fill.chain(&chain, &mut out);
@@ -81,7 +83,8 @@ impl Fill {
         if chain.gates.len() < 2 || chain.length() < 0.5 * self.spacing {
             return;
         }
-        let thickness = chain.smooth_thickness(2.0 * self.spacing);
+        let mut thickness = chain.smooth_thickness(2.0 * self.spacing);
+        thickness.iter_mut().for_each(|t| *t += 2.0 * HAIR);
         for (from, to, beads) in self.runs(chain, &thickness) {
             if beads == 0 {
                 continue;
@@ -111,11 +114,15 @@ impl Fill {
         let mut out: Vec<(usize, usize, usize)> = Vec::new();
         for run in runs {
             let length: f64 = (run.0..run.1).map(|i| chain.step(i)).sum();
+            let fit = |beads: usize| {
+                let each = |t: &f64| t / beads as f64;
+                let fits = |w: f64| w >= self.least && w <= self.most;
+                length < 3.0 * self.spacing
+                    && beads > 0
+                    && thickness[run.0..run.1].iter().map(each).all(fits)
+            };
             match out.last_mut() {
-                Some(last) if last.2 == run.2 => last.1 = run.1,
-                Some(last) if length < 3.0 * self.spacing && last.2 > 0 && run.2 > 0 => {
-                    last.1 = run.1;
-                }
+                Some(last) if last.2 == run.2 || fit(last.2) => last.1 = run.1,
                 _ => out.push(run),
             }
         }
@@ -149,6 +156,9 @@ impl Fill {
             return;
         }
         let fills = area / length;
+        if fills < self.least {
+            return;
+        }
         let mut line = Vec::with_capacity(points.len());
         simplify::line(points, false, STRAIGHTEN, &mut line);
         if closed && line.len() > 3 {

@@ -1,1 +1,56 @@
+use super::*;
+use crate::region_shapes::*;
 
+fn options() -> GapOptions {
+    GapOptions { width: WIDTH, height: HEIGHT, min_width: 0.24, max_width: 0.64 }
+}
+
+#[test]
+fn a_tapered_wedge_is_covered() {
+    let wedge = [band(40.0, |_| 0.0, |x| 0.25 + 0.015 * x)];
+    let paths = gap_fill(&wedge, &options());
+    let cover = cover(&wedge, &paths, 0.02);
+    assert!(cover.covered > 0.97, "{cover:?}");
+    assert!(cover.doubled < 0.02, "{cover:?}");
+    let share = volume(&paths) / (wedge[0].area() * HEIGHT);
+    assert!((share - 1.0).abs() < 0.03, "{share}");
+    assert!(paths.iter().all(|p| p.width >= 0.24 && p.width < 0.68), "{paths:?}");
+}
+
+#[test]
+fn a_thin_ring_takes_one_closed_bead() {
+    let paths = gap_fill(&[tube(10.0, 9.6)], &options());
+    assert_eq!(paths.len(), 1);
+    assert!(paths[0].closed);
+    assert!(paths[0].points.iter().all(|p| (p.length() - 9.8).abs() < 0.02));
+    let fills = bead::spacing(paths[0].width, HEIGHT);
+    assert!((fills - 0.4).abs() < 0.01, "{fills}");
+}
+
+#[test]
+fn a_cross_is_filled_in_all_its_arms() {
+    let cross = [simple(&[
+        (0.0, 5.0),
+        (5.0, 5.0),
+        (5.0, 0.0),
+        (5.4, 0.0),
+        (5.4, 5.0),
+        (10.4, 5.0),
+        (10.4, 5.4),
+        (5.4, 5.4),
+        (5.4, 10.4),
+        (5.0, 10.4),
+        (5.0, 5.4),
+        (0.0, 5.4),
+    ])];
+    let paths = gap_fill(&cross, &options());
+    let cover = cover(&cross, &paths, 0.02);
+    assert!(cover.covered > 0.93, "{cover:?} {paths:?}");
+    assert!(cover.doubled < 0.05, "{cover:?}");
+}
+
+#[test]
+fn too_thin_is_left_open() {
+    assert!(gap_fill(&[rectangle(0.0, 0.0, 20.0, 0.1)], &options()).is_empty());
+    assert!(gap_fill(&[], &options()).is_empty());
+}

@@ -3,6 +3,7 @@
 mod gyroid;
 mod join;
 mod pattern;
+mod rims;
 mod scan;
 
 use fgm_core::{Polygon, Role, bead};
@@ -128,7 +129,8 @@ fn sparse_lines(
 ) -> Vec<Path> {
     let centres = inset.inset(region, 0.5 * options.spacing());
     let lattice = scan::Lattice { angle, pitch, phase: 0.5 * pitch };
-    join::serpentines(&centres, &lattice, options.width, options.role)
+    let beads = join::Beads { width: options.width, spacing: None, role: options.role };
+    join::serpentines(&centres, &lattice, &beads)
 }
 
 /// Solid lines over one polygon, as many as fit its extent best and spread evenly.
@@ -147,7 +149,8 @@ fn solid_lines(polygon: &Polygon, options: &InfillOptions, inset: &dyn Inset) ->
     let centres = inset.inset(polygon, margin);
     let lattice = scan::Lattice { angle, pitch, phase: low + 0.5 * pitch };
     let width = options.width - spacing + pitch;
-    let mut out = join::serpentines(&centres, &lattice, width, options.role);
+    let beads = join::Beads { width, spacing: Some(spacing), role: options.role };
+    let mut out = join::serpentines(&centres, &lattice, &beads);
 
     let covered = inset.inset(&centres, -0.5 * spacing - 1e-2);
     if region::area(polygon) - region::area(&covered) > -1e-2 * spacing {

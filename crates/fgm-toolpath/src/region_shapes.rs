@@ -70,9 +70,10 @@ pub(crate) fn segments(path: &Path) -> impl Iterator<Item = (Point2, Point2)> + 
 pub(crate) struct Cover {
     /// Share of the region under beads.
     pub(crate) covered: f64,
-    /// Share of the region under beads' cores (the width that carries the volume) twice or more.
+    /// Share of the region under beads' cores (the width that carries the volume, without the
+    /// ends) twice or more.
     pub(crate) doubled: f64,
-    /// Area outside the region under beads, by the region's.
+    /// Area outside the region under beads' cores, by the region's.
     pub(crate) outside: f64,
 }
 
@@ -81,6 +82,7 @@ pub(crate) fn cover(region: &[Polygon], paths: &[Path], cell: f64) -> Cover {
     let size = (bounds.size() / cell).ceil();
     let (columns, rows) = (size.x as usize, size.y as usize);
     let (mut under, mut cores) = (vec![false; columns * rows], vec![0u8; columns * rows]);
+    let mut beyond = under.clone();
     let round = WIDTH - bead::spacing(WIDTH, HEIGHT);
     for path in paths {
         let mut own = std::collections::BTreeSet::new();
@@ -90,11 +92,13 @@ pub(crate) fn cover(region: &[Polygon], paths: &[Path], cell: f64) -> Cover {
             for row in low.y as usize..=(high.y as usize).min(rows - 1) {
                 for column in low.x as usize..=(high.x as usize).min(columns - 1) {
                     let p = bounds.min + (Point2::new(column as f64, row as f64) + 0.5) * cell;
-                    let at = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-                    let distance = p.distance(a + (b - a) * at);
+                    let at = (p - a).dot(b - a) / (b - a).length_squared();
+                    let distance = p.distance(a + (b - a) * at.clamp(0.0, 1.0));
                     let index = row * columns + column;
                     under[index] |= distance <= 0.5 * path.width;
-                    if distance < 0.5 * (path.width - round) - cell {
+                    let core = 0.5 * (path.width - round);
+                    beyond[index] |= distance < core - 0.5 * cell;
+                    if distance < core - cell && (0.0..=1.0).contains(&at) {
                         own.insert(index);
                     }
                 }
@@ -112,7 +116,7 @@ pub(crate) fn cover(region: &[Polygon], paths: &[Path], cell: f64) -> Cover {
                 covered += f64::from(u8::from(under[index]));
                 doubled += f64::from(u8::from(cores[index] > 1));
             } else {
-                outside += f64::from(u8::from(under[index]));
+                outside += f64::from(u8::from(beyond[index]));
             }
         }
     }

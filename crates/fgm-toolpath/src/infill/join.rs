@@ -2,6 +2,7 @@
 
 use fgm_core::{Point2, Polygon, Ring, Role};
 
+use super::rims;
 use super::scan::{Crossing, Lattice};
 use crate::Path;
 
@@ -10,27 +11,75 @@ const LONGEST_JOIN: f64 = 4.0;
 /// Turns count from here, so that lines below zero have one too and parity is kept.
 const TURN_ZERO: i64 = 1 << 24;
 
+/// What lines are laid as.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beads {
+    /// Width of a bead, mm.
+    pub(super) width: f64,
+    /// What a bead fills, mm, and thus the gap that takes one: a solid filling also has beads
+    /// along borders beside its lines. `None` for a sparse filling.
+    pub(super) spacing: Option<f64>,
+    /// What the beads are for.
+    pub(super) role: Role,
+}
+
 /// The lines of a lattice inside a region of bead centres, joined where the border leads from
 /// one line to the next.
-pub(super) fn serpentines(
-    centres: &[Polygon],
-    lattice: &Lattice,
-    width: f64,
-    role: Role,
-) -> Vec<Path> {
+pub(super) fn serpentines(centres: &[Polygon], lattice: &Lattice, beads: &Beads) -> Vec<Path> {
     let rings: Vec<&Ring> = centres.iter().flat_map(Polygon::rings).collect();
-    let crossings = lattice.crossings(rings.iter().copied());
+    let mut crossings = lattice.crossings(rings.iter().copied());
+    if beads.spacing.is_some() {
+        crossings = without_tips(crossings, lattice.pitch);
+    }
     let mut joiner = Joiner::new(&rings, &crossings, lattice);
     let mut out = Vec::new();
     for line in 0..crossings.len() / 2 {
         if !joiner.used[line] {
             let (points, turns) = joiner.serpentine(line);
             if let Some(&turn) = turns.first() {
+                let Beads { width, role, .. } = *beads;
                 out.push(Path { points, closed: false, role, width, turn, turns });
             }
         }
     }
+    if let Some(spacing) = beads.spacing {
+        joiner.rims(spacing, beads, &mut out);
+    }
     out
+}
+
+/// Leaves out short lines that only cut off the tip of a ring: a rim fills the tip better.
+fn without_tips(crossings: Vec<Crossing>, pitch: f64) -> Vec<Crossing> {
+    let after = neighbours(&crossings).0;
+    let tip = |k: usize| {
+        let (l, r) = (2 * k, 2 * k + 1);
+        let short = crossings[r].u - crossings[l].u < 1.5 * pitch;
+        let next = |a: usize, b: usize| after[a] as usize == b;
+        // One line alone in its ring is no tip but all there is.
+        short && next(l, r) != next(r, l)
+    };
+    let kept = (0..crossings.len() / 2).filter(|&k| !tip(k));
+    kept.flat_map(|k| [crossings[2 * k], crossings[2 * k + 1]]).collect()
+}
+
+/// The crossing after and before each on its ring.
+fn neighbours(crossings: &[Crossing]) -> (Vec<u32>, Vec<u32>) {
+    let mut order: Vec<u32> = (0..crossings.len() as u32).collect();
+    let key = |i: &u32| &crossings[*i as usize];
+    order.sort_unstable_by(|a, b| {
+        let (c, d) = (key(a), key(b));
+        c.ring.cmp(&d.ring).then(c.at.total_cmp(&d.at)).then(a.cmp(b))
+    });
+    let mut after = vec![0; order.len()];
+    let mut before = vec![0; order.len()];
+    for same in order.chunk_by(|a, b| key(a).ring == key(b).ring) {
+        for (i, &this) in same.iter().enumerate() {
+            let next = same[(i + 1) % same.len()];
+            after[this as usize] = next;
+            before[next as usize] = this;
+        }
+    }
+    (after, before)
 }
 
 /// Lines are pairs of crossings: line `k` runs from crossing `2k` to `2k + 1`.
@@ -44,28 +93,17 @@ struct Joiner<'a> {
     after: Vec<u32>,
     before: Vec<u32>,
     used: Vec<bool>,
+    /// Whether the stretch of ring after each crossing is part of a path.
+    linked: Vec<bool>,
 }
 
 impl<'a> Joiner<'a> {
     fn new(rings: &'a [&'a Ring], crossings: &'a [Crossing], lattice: &'a Lattice) -> Self {
-        let mut order: Vec<u32> = (0..crossings.len() as u32).collect();
-        let key = |i: &u32| &crossings[*i as usize];
-        order.sort_unstable_by(|a, b| {
-            let (c, d) = (key(a), key(b));
-            c.ring.cmp(&d.ring).then(c.at.total_cmp(&d.at)).then(a.cmp(b))
-        });
-        let mut after = vec![0; order.len()];
-        let mut before = vec![0; order.len()];
-        for same in order.chunk_by(|a, b| key(a).ring == key(b).ring) {
-            for (i, &this) in same.iter().enumerate() {
-                let next = same[(i + 1) % same.len()];
-                after[this as usize] = next;
-                before[next as usize] = this;
-            }
-        }
+        let (after, before) = neighbours(crossings);
         let lengths = rings.iter().map(|r| cumulative(r)).collect();
         let used = vec![false; crossings.len() / 2];
-        Self { rings, lengths, crossings, lattice, after, before, used }
+        let linked = vec![false; crossings.len()];
+        Self { rings, lengths, crossings, lattice, after, before, used, linked }
     }
 
     /// The path that begins with a line.
@@ -79,16 +117,39 @@ impl<'a> Joiner<'a> {
         loop {
             let to = from ^ 1;
             let (start, end) = (&self.crossings[from], &self.crossings[to]);
-            let turn = (start.line + TURN_ZERO).rem_euclid(1 << 31) as u32;
+            let turn = turn(start.line);
             self.point(self.lattice.point(start), turn, &mut points, &mut turns);
             self.point(self.lattice.point(end), turn, &mut points, &mut turns);
             let Some((next, forward)) = self.join(to, way) else { break };
             self.link(to, next, forward, turn, &mut points, &mut turns);
             way = self.crossings[next].line - end.line;
+            self.linked[if forward { to } else { next }] = true;
             self.used[next / 2] = true;
             from = next;
         }
         (points, turns)
+    }
+
+    /// Adds beads along stretches of border that no line fills.
+    fn rims(&self, spacing: f64, beads: &Beads, out: &mut Vec<Path>) {
+        for from in 0..self.crossings.len() {
+            let to = self.after[from] as usize;
+            if self.linked[from] || to == from {
+                continue;
+            }
+            let (start, end) = (&self.crossings[from], &self.crossings[to]);
+            let (mut points, mut turns) = (Vec::new(), Vec::new());
+            self.point(self.lattice.point(start), 0, &mut points, &mut turns);
+            self.link(from, to, true, 0, &mut points, &mut turns);
+            self.point(self.lattice.point(end), 0, &mut points, &mut turns);
+            let fills = rims::thickness(&points, start.line, end.line, self.lattice, spacing);
+            if let Some(fills) = fills {
+                let turn = turn(start.line);
+                let width = beads.width - self.lattice.pitch + fills;
+                let turns = Vec::new();
+                out.push(Path { points, closed: false, role: beads.role, width, turn, turns });
+            }
+        }
     }
 
     /// Adds a point and the segment to it, but none of no length.
@@ -163,6 +224,10 @@ impl<'a> Joiner<'a> {
             self.point(ring[corner % n], turn, points, turns);
         }
     }
+}
+
+fn turn(line: i64) -> u32 {
+    (line + TURN_ZERO).rem_euclid(1 << 31) as u32
 }
 
 fn cumulative(ring: &Ring) -> Vec<f64> {

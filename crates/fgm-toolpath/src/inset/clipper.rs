@@ -20,7 +20,8 @@ const MERGE: f64 = 1e-4;
 
 /// The region grown by `delta` mm; shrunk where negative.
 pub(crate) fn offset(region: &[Polygon], delta: f64) -> Vec<Polygon> {
-    let paths = to_paths(region);
+    let turn = Turn::of(region, &[]);
+    let paths = turn.paths(region);
     if paths.is_empty() {
         return Vec::new();
     }
@@ -28,41 +29,64 @@ pub(crate) fn offset(region: &[Polygon], delta: f64) -> Vec<Polygon> {
     offsetter.add_paths(&paths, JoinType::Miter, EndType::Polygon);
     let mut out = Paths64::new();
     offsetter.execute(delta * UNITS, &mut out);
-    to_polygons(&out)
+    turn.polygons(&out)
 }
 
 /// A boolean of two regions by the non-zero rule.
 pub(crate) fn boolean(a: &[Polygon], b: &[Polygon], operation: Operation) -> Vec<Polygon> {
-    let a = to_paths(&simplify::region(a, MERGE));
-    let b = to_paths(&simplify::region(b, MERGE));
+    let (a, b) = (simplify::region(a, MERGE), simplify::region(b, MERGE));
+    let turn = Turn::of(&a, &b);
     let mut clipper = Clipper64::new();
-    clipper.add_subject(&a);
-    clipper.add_clip(&b);
+    clipper.add_subject(&turn.paths(&a));
+    clipper.add_clip(&turn.paths(&b));
     let mut out = Paths64::new();
     if !clipper.execute(operation, FillRule::NonZero, &mut out, None) {
         return Vec::new();
     }
-    to_polygons(&out)
+    turn.polygons(&out)
 }
 
-fn to_paths(region: &[Polygon]) -> Paths64 {
-    region.iter().flat_map(Polygon::rings).map(to_path).collect()
-}
+/// Clipper sweeps along y and works through every edge that a sweep line meets: a region wider
+/// than high is turned by a quarter, which makes long bands several times cheaper.
+#[derive(Clone, Copy)]
+struct Turn(bool);
 
-fn to_path(ring: &Ring) -> Path64 {
-    let units = |v: f64| (v * UNITS).round() as i64;
-    ring.points.iter().map(|p| Point64::new(units(p.x), units(p.y))).collect()
+impl Turn {
+    fn of(a: &[Polygon], b: &[Polygon]) -> Self {
+        let all = a.iter().chain(b);
+        let bounds = all.fold(Bounds2::EMPTY, |bounds, p| bounds.union(&p.bounds()));
+        Self(bounds.size().x > bounds.size().y)
+    }
+
+    fn paths(self, region: &[Polygon]) -> Paths64 {
+        region.iter().flat_map(Polygon::rings).map(|r| self.path(r)).collect()
+    }
+
+    fn path(self, ring: &Ring) -> Path64 {
+        let units = |v: f64| (v * UNITS).round() as i64;
+        let point = |p: &Point2| {
+            let p = if self.0 { -p.perp() } else { *p };
+            Point64::new(units(p.x), units(p.y))
+        };
+        ring.points.iter().map(point).collect()
+    }
+
+    fn polygons(self, paths: &Paths64) -> Vec<Polygon> {
+        let point = |p: &Point64| {
+            let p = Point2::new(p.x as f64, p.y as f64) / UNITS;
+            if self.0 { p.perp() } else { p }
+        };
+        to_polygons(paths.iter().map(|path| Ring::new(path.iter().map(point).collect())))
+    }
 }
 
 /// Rings sorted into outer ones and the holes of each.
-fn to_polygons(paths: &Paths64) -> Vec<Polygon> {
+fn to_polygons(rings: impl Iterator<Item = Ring>) -> Vec<Polygon> {
     let mut out: Vec<Polygon> = Vec::new();
     let mut boxes: Vec<Bounds2> = Vec::new();
     let mut areas: Vec<f64> = Vec::new();
     let mut holes = Vec::new();
-    for path in paths {
-        let point = |p: &Point64| Point2::new(p.x as f64, p.y as f64) / UNITS;
-        let ring = Ring::new(path.iter().map(point).collect());
+    for ring in rings {
         let area = ring.area();
         if ring.points.len() < 3 || area.abs() < 1e-6 {
             continue;

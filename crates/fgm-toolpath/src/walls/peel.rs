@@ -10,7 +10,7 @@ use crate::{Inset, region};
 /// takes no loop is at most 2.6 spacings thick, filled by one or two beads.
 const HALF_LOOP: f64 = 1.3;
 /// How far a thin rest stands off the beads beside it, mm, so that rounding makes no slivers.
-const STAND_OFF: f64 = 5e-3;
+const STAND_OFF: f64 = 1e-2;
 
 /// A region taken apart.
 #[derive(Debug, Default)]
@@ -73,10 +73,12 @@ fn step(
     }
     // Grown back the core would have mitred corners where the border is round, so it only says
     // where the loops run; they keep their distance from the true border.
-    let fits = inset.inset(&core, 0.5 * spacing + STAND_OFF - half);
+    let fits = inset.inset(&core, 0.5 * spacing - half - STAND_OFF);
     let around = region::intersection(&inset.inset(&polygon, 0.5 * spacing), &fits);
     let covered = inset.inset(&around, -0.5 * spacing - STAND_OFF);
-    thin.extend(region::difference(&polygon, &covered));
+    let left = region::difference(&polygon, &covered);
+    let least = 0.1 * spacing * spacing;
+    thin.extend(left.into_iter().filter(|p| p.area() > least));
     next.extend(inset.inset(&around, 0.5 * spacing));
     loops.extend(around);
 }
