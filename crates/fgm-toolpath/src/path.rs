@@ -24,6 +24,15 @@ impl Path {
         self.turns.get(index).copied().unwrap_or(self.turn)
     }
 
+    /// The whole path in one colour; a closed one becomes a piece that ends where it begins.
+    pub fn in_color(self, color: ColorId) -> Piece {
+        let Self { mut points, closed, role, width, .. } = self;
+        if closed {
+            points.extend(points.first().copied());
+        }
+        Piece { points, role, width, color }
+    }
+
     /// Length, mm, all the way round where closed.
     pub fn length(&self) -> f64 {
         let open: f64 = self.points.windows(2).map(|w| w[0].distance(w[1])).sum();
