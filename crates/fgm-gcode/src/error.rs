@@ -1,5 +1,7 @@
 use fgm_core::Point3;
 
+use crate::{DialectName, MachineKind};
+
 /// Why G-code cannot be written.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -107,6 +109,16 @@ pub enum GcodeError {
         /// Its value.
         value: f64,
         /// What it may be.
+        expected: &'static str,
+    },
+    /// A dialect that cannot tell what the machine needs.
+    #[error("the dialect {dialect:?} does not fit a machine of kind {kind:?}: {expected}")]
+    DialectMismatch {
+        /// The dialect.
+        dialect: DialectName,
+        /// The kind of machine.
+        kind: MachineKind,
+        /// What would fit.
         expected: &'static str,
     },
     /// A template with a variable that does not exist, or an unclosed brace.

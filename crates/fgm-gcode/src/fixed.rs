@@ -44,7 +44,7 @@ impl<const D: u32> Fixed<D> {
     pub fn round(value: f64) -> Result<Self, GcodeError> {
         let scale = Self::SCALE as f64;
         let scaled = value * scale;
-        if !(scaled.abs() < LIMIT) {
+        if scaled.is_nan() || scaled.abs() >= LIMIT {
             return Err(GcodeError::NotANumber { value });
         }
         let magnitude = scaled.abs();

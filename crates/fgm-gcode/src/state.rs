@@ -75,7 +75,7 @@ impl Machine {
         let share = plain.mixture.fractions().get(1).copied().unwrap_or(0.0);
         let celsius = foaming.temperature(share);
         let least = self.temperature.min_extrusion;
-        if !(celsius >= least) {
+        if celsius.is_nan() || celsius < least {
             return Err(GcodeError::Cold { what: format!("colour {color}"), celsius, least });
         }
         // What is printed is the rounded temperature, so that is the mixture, too.

@@ -1,6 +1,7 @@
 //! Every profile that comes with the crate: it reads, it is as the documentation says, and the
 //! whole G-code of a tiny print on it is as it was.
 #![cfg(feature = "serde")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 use fgm_core::{Bounds3, ColorId, Mixture, Motion, Point2, Point3, Role};
 use fgm_gcode::{Lead, Machine, MachineKind, Writer, WriterOptions, lines};

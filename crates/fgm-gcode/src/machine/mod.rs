@@ -51,6 +51,8 @@ pub struct Machine {
     pub nozzle: f64,
     /// Diameter of the filament, mm.
     pub filament_diameter: f64,
+    /// Density of the filament, g/cm³, for the mass that a print takes.
+    pub filament_density: f64,
     /// No ratio lies between 0 and this: firmwares drop what is less than 0.01.
     pub min_fraction: f64,
     /// Greatest section of a bead, mm², above which the firmware stops.
@@ -91,6 +93,7 @@ impl Default for Machine {
             inputs: 2,
             nozzle: 0.4,
             filament_diameter: 1.75,
+            filament_density: 1.24,
             min_fraction: 0.01,
             max_bead_area: None,
             max_flow: None,

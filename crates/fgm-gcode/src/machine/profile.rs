@@ -42,7 +42,8 @@ impl Machine {
             let (line, column) = position(text, at);
             MachineError { line, column, message: error.message().to_owned() }
         })?;
-        machine.validate().map_err(|error| locate(text, &error))?;
+        let valid = machine.validate().and_then(|()| machine.validate_dialect());
+        valid.map_err(|error| locate(text, &error))?;
         Ok(machine)
     }
 }
@@ -58,6 +59,7 @@ fn position(text: &str, at: usize) -> (usize, usize) {
 fn locate(text: &str, error: &GcodeError) -> MachineError {
     let (line, column) = match error {
         GcodeError::Setting { name, .. } => find_key(text, name),
+        GcodeError::DialectMismatch { .. } => find_key(text, "dialect.name"),
         GcodeError::Template { template, line, column, .. } => {
             let (key_line, key_column) = find_key(text, &format!("template.{template}"));
             let multiline = text
@@ -94,6 +96,7 @@ fn find_key(text: &str, path: &str) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     #[test]
     fn errors_point_at_the_place() {
@@ -106,12 +109,29 @@ mod tests {
             ("[bed]\nsize = [100, 0, 100]\n", 2, 1, "bed.size"),
             ("[speed]\n travel = nan\n", 2, 2, "speed.travel"),
             ("inputs = 0\n", 1, 1, "inputs"),
+            ("inputs = 9\n", 1, 1, "8 filaments"),
+            ("kind = 'foaming'\n[dialect]\nname = 'kalico'\n", 3, 1, "foaming does"),
+            ("kind = 'tool-changer'\n", 1, 1, "tool-change"),
+            ("inputs = 7\n[dialect]\nname = 'marlin-direct'\n", 1, 1, "6 motors"),
             ("[lead]\nvolume = -1.0\n", 2, 1, "lead.volume"),
             ("[template]\nstart = \"\"\"\nG28\nM104 S{heat}\n\"\"\"\n", 4, 7, "heat"),
         ] {
             let error = Machine::from_toml(text).unwrap_err();
             assert_eq!((error.line, error.column), (line, column), "{text:?}: {error}");
             assert!(error.message.contains(words), "{text:?}: {error}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_text_is_read_or_refused(text in "\\PC{0,60}", cut in 0usize..4000) {
+            let _ = Machine::from_toml(&text);
+            let profile = Machine::builtin_toml("snmf-4").unwrap();
+            let mut broken: String = profile.chars().take(cut).collect();
+            broken.push_str(&text);
+            if let Err(error) = Machine::from_toml(&broken) {
+                prop_assert!(error.line <= broken.lines().count().max(1) + 1, "{}", error);
+            }
         }
     }
 

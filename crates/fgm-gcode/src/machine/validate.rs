@@ -1,4 +1,6 @@
-use crate::{GcodeError, Machine, MachineKind, template};
+use fgm_core::MAX_MATERIALS;
+
+use crate::{DialectName, GcodeError, Machine, MachineKind, template};
 
 /// A range a setting must lie in, and its words.
 struct Range(f64, f64, &'static str);
@@ -27,6 +29,7 @@ impl Machine {
         check("inputs", self.inputs as f64, &Range(1.0, 16.0, "1 to 16"))?;
         check("nozzle", self.nozzle, &POSITIVE)?;
         check("filament_diameter", self.filament_diameter, &POSITIVE)?;
+        check("filament_density", self.filament_density, &POSITIVE)?;
         check("min_fraction", self.min_fraction, &Range(0.0, 0.1, "0 to 0.1"))?;
         option("max_bead_area", self.max_bead_area, &POSITIVE)?;
         option("max_flow", self.max_flow, &POSITIVE)?;
@@ -43,6 +46,48 @@ impl Machine {
         check("lead.bead_width", self.lead.bead_width, &POSITIVE)?;
         self.settings(&check)?;
         template::check(&self.template)
+    }
+
+    /// Whether the profile's dialect can tell what the machine's kind and motors need.
+    ///
+    /// # Errors
+    /// [`GcodeError::DialectMismatch`]; [`GcodeError::Setting`] for more motors than it has letters
+    /// for.
+    pub fn validate_dialect(&self) -> Result<(), GcodeError> {
+        let (dialect, kind) = (self.dialect.name, self.kind);
+        let (fits, expected) = match kind {
+            MachineKind::Foaming => (dialect == DialectName::Foaming, "foaming does"),
+            MachineKind::ToolChanger => (
+                matches!(dialect, DialectName::ToolChange | DialectName::PrusaXl),
+                "tool-change and prusa-xl do",
+            ),
+            MachineKind::Mixing => (
+                !matches!(
+                    dialect,
+                    DialectName::Foaming | DialectName::ToolChange | DialectName::PrusaXl
+                ),
+                "marlin-mixing, marlin-direct, rep-rap, kalico and repetier do",
+            ),
+        };
+        if !fits {
+            return Err(GcodeError::DialectMismatch { dialect, kind, expected });
+        }
+        let motors = self.inputs + self.dialect.leading_weights.len();
+        let (most, expected) = match (kind, dialect) {
+            (MachineKind::Mixing, DialectName::MarlinDirect) => (6, "at most 6 motors for M165"),
+            (MachineKind::Mixing, _) => {
+                (MAX_MATERIALS + self.dialect.leading_weights.len(), "at most 8 filaments to mix")
+            }
+            _ => (usize::MAX, ""),
+        };
+        if motors > most {
+            return Err(GcodeError::Setting {
+                name: "inputs".into(),
+                value: self.inputs as f64,
+                expected,
+            });
+        }
+        Ok(())
     }
 
     fn settings(

@@ -21,7 +21,7 @@ pub(super) fn parse(text: &[u8]) -> Option<(f64, usize)> {
     while let Some(&byte) = text.get(at) {
         match byte {
             b'0'..=b'9' => {
-                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'))
+                mantissa = mantissa.wrapping_mul(10).wrapping_add(u64::from(byte - b'0'));
             }
             b'.' if point.is_none() => point = Some(at),
             _ => break,

@@ -61,13 +61,15 @@ impl<W: io::Write> Writer<W> {
     ///
     /// # Errors
     /// [`GcodeError::NoColors`]; [`GcodeError::Cold`] for a nozzle below the least temperature for
-    /// extrusion; [`GcodeError::Setting`] and [`GcodeError::Template`] for a faulty profile.
+    /// extrusion; [`GcodeError::Setting`], [`GcodeError::Template`] and
+    /// [`GcodeError::DialectMismatch`] for a faulty profile.
     pub fn new(
         out: W,
         machine: &Machine,
         states: &[State],
         options: &WriterOptions,
     ) -> Result<Self, GcodeError> {
+        machine.validate_dialect()?;
         Self::with_dialect(out, machine, states, options, machine.dialect())
     }
 
