@@ -107,6 +107,7 @@ mod tests {
             ("[bed]\nsize = [1, 2]\n", 2, 8, "array of length 3"),
             ("[dialect]\nname = 'klingon'\n", 2, 8, "marlin-mixing"),
             ("[bed]\nsize = [100, 0, 100]\n", 2, 1, "bed.size"),
+            ("name = 'a'\nfilament_density = 0.0\n", 2, 1, "filament_density"),
             ("[speed]\n travel = nan\n", 2, 2, "speed.travel"),
             ("inputs = 0\n", 1, 1, "inputs"),
             ("inputs = 9\n", 1, 1, "8 filaments"),

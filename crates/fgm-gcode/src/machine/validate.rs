@@ -30,6 +30,7 @@ impl Machine {
         check("nozzle", self.nozzle, &POSITIVE)?;
         check("filament_diameter", self.filament_diameter, &POSITIVE)?;
         check("filament_density", self.filament_density, &POSITIVE)?;
+        check("filament_density", self.filament_density, &POSITIVE)?;
         check("min_fraction", self.min_fraction, &Range(0.0, 0.1, "0 to 0.1"))?;
         option("max_bead_area", self.max_bead_area, &POSITIVE)?;
         option("max_flow", self.max_flow, &POSITIVE)?;
