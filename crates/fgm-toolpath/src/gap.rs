@@ -42,10 +42,15 @@ pub fn gap_fill(region: &[Polygon], options: &GapOptions) -> Vec<Path> {
     let fill = Fill::new(options);
     let mut out = Vec::new();
     // A hair less: rings that touch come apart, spikes of no width vanish.
-    for polygon in ClipperInset::default().inset(region, HAIR) {
+    let inset = ClipperInset::default();
+    for polygon in inset.inset(region, HAIR) {
+        let before = out.len();
         let mesh = mesh::Mesh::new(&polygon, 1.5 * fill.spacing);
         for chain in chains::chains(mesh) {
             fill.chain(&chain, &mut out);
+        }
+        if out.len() == before {
+            fill.pin(polygon, &inset, &mut out);
         }
     }
     out
@@ -77,6 +82,22 @@ impl Fill {
         let one = self.most.min(1.6 * self.spacing);
         let even = (thickness / self.spacing - 0.1).round() as usize;
         if thickness <= one { 1 } else { even.clamp(2, 64) }
+    }
+
+    /// A small loop for what has no middle line: as thick one way as the other.
+    fn pin(&self, polygon: Polygon, inset: &ClipperInset, out: &mut Vec<Path>) {
+        let area = polygon.area();
+        for ring in inset.inset(&[polygon], 0.5 * self.least).into_iter().map(|p| p.outer) {
+            let fills = (area / ring.length()).clamp(self.least, self.most);
+            out.push(Path {
+                points: ring.points,
+                closed: true,
+                role: Role::GapFill,
+                width: fills + self.round,
+                turn: 0,
+                turns: Vec::new(),
+            });
+        }
     }
 
     fn chain(&self, chain: &Chain, out: &mut Vec<Path>) {

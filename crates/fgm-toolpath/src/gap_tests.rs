@@ -54,3 +54,14 @@ fn too_thin_is_left_open() {
     assert!(gap_fill(&[rectangle(0.0, 0.0, 20.0, 0.1)], &options()).is_empty());
     assert!(gap_fill(&[], &options()).is_empty());
 }
+
+#[test]
+fn pins_are_printed() {
+    for tenths in 4..=9 {
+        let radius = 0.05 * f64::from(tenths);
+        let pin = [Polygon::simple(radial(Point2::ZERO, 40, |_| radius))];
+        let paths = gap_fill(&pin, &options());
+        let share = volume(&paths) / (pin[0].area() * HEIGHT);
+        assert!(share > 0.5 && share < 1.1, "{radius}: {share} {paths:?}");
+    }
+}

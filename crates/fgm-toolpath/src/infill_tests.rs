@@ -11,7 +11,7 @@ fn options(pattern: Pattern, density: f64) -> InfillOptions {
 fn patterns_have_their_density() {
     let region = [rectangle(0.0, 0.0, 120.0, 120.0)];
     for pattern in Pattern::ALL {
-        for percent in [10, 15, 25, 40, 60, 80, 100] {
+        for percent in [10, 15, 40, 80, 100] {
             let density = f64::from(percent) * 0.01;
             // The gyroid's lines vary over its height.
             let heights = if pattern == Pattern::Gyroid { 8 } else { 1 };
@@ -69,7 +69,7 @@ fn serpentines_keep_every_line() {
             assert_eq!(path.turns.len(), path.points.len() - 1);
             for pair in path.points.windows(2) {
                 let step = pair[1] - pair[0];
-                let v = (pair[0].perp_dot(axis) * -1.0 - lattice.phase) / lattice.pitch;
+                let v = (-pair[0].perp_dot(axis) - lattice.phase) / lattice.pitch;
                 let on_line = (v - v.round()).abs() < 1e-6 && step.perp_dot(axis).abs() < 1e-9;
                 lines += if on_line { step.length() } else { 0.0 };
             }

@@ -1,4 +1,63 @@
-//! Toolpaths for graded parts: walls, skins, infill, sectioning by colour, zippers, fills against the gradient, purge towers, ordering.
+//! Toolpaths for graded parts, layer by layer: from regions to beads in colours, in the order of
+//! printing.
+//!
+//! A layer comes as regions (slices of [`Polygon`](fgm_core::Polygon)) and leaves as a
+//! [`LayerPlan`], a stream of [`Motion`](fgm_core::Motion)s. Nothing here knows a machine, a file
+//! or a field; colours come in through a [`Sectioner`](fgm_core::Sectioner).
+//!
+//! # Two ways to print a gradient
+//!
+//! | | sectioned | against the gradient |
+//! |---|---|---|
+//! | lines | as for any part: [`walls`], [`skins`], [`infill`] over the whole layer | [`against`] fills each face of one colour by itself |
+//! | colour | [`section`] cuts the lines by the faces, with zippers where two colours overlap | a face's own |
+//! | between colours | [`Towers`] take the transition | many small steps need none |
+//! | then | [`order_with`], [`LayerPlan`] | the same |
+//!
+//! # The cast
+//!
+//! | group | items |
+//! |---|---|
+//! | lines | [`Path`] before it has a colour, [`Piece`] after |
+//! | borders | [`Inset`] (the seam), [`ClipperInset`] (its default), [`region`] (booleans) |
+//! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`gap_fill`] |
+//! | lines of a face | [`against`] |
+//! | colour | [`section`] |
+//! | order | [`order`], [`order_with`], [`connect`] |
+//! | beside the part | [`Towers`], [`skirt`] |
+//! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
+//!
+//! # Volume
+//!
+//! A bead's section is a capsule ([`fgm_core::bead`]): lines a [spacing](fgm_core::bead::spacing)
+//! apart fill the layer to exactly its volume. Everything here keeps to that measure. The first
+//! wall lies half a bead inside the outline; from there on each line fills one spacing, and what
+//! is too thin for lines takes beads of varying width ([`gap_fill`]).
+//!
+//! # Example
+//!
+//! A plate with a bore: walls, and what is inside filled solid.
+//!
+//! ```
+//! use fgm_core::{Point2, Polygon, Ring, bead};
+//! use fgm_toolpath::{ClipperInset, InfillOptions, WallOptions, infill, region, walls};
+//!
+//! let ring = |p: [(f64, f64); 4]| Ring::new(p.map(|(x, y)| Point2::new(x, y)).into());
+//! let plate = [Polygon {
+//!     outer: ring([(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 30.0)]),
+//!     holes: vec![ring([(15.0, 10.0), (15.0, 20.0), (25.0, 20.0), (25.0, 10.0)])],
+//! }];
+//! let (width, height, inset) = (0.4, 0.2, ClipperInset::default());
+//!
+//! let walls = walls(&plate, &WallOptions::new(3, width, height), &inset);
+//! assert_eq!(walls.paths.len(), 6, "three outside, three in the bore");
+//! let solid = infill(&walls.inside, &InfillOptions::new(width, height), &inset);
+//!
+//! let volume = |p: &fgm_toolpath::Path| p.length() * bead::area(p.width, height);
+//! let extruded: f64 = walls.paths.iter().chain(&solid).map(volume).sum();
+//! let part = region::area(&plate) * height;
+//! assert!((extruded / part - 1.0).abs() < 0.01);
+//! ```
 
 mod against;
 mod error;
@@ -6,7 +65,6 @@ mod gap;
 mod infill;
 mod inset;
 mod order;
-mod order_link;
 mod order_near;
 mod path;
 mod plan;

@@ -32,7 +32,7 @@ fn walls_and_filling_have_the_volume_of_the_part() {
             let body = ClipperInset::default().inset(&region, round);
             let share = volume(&all) / (region::area(&body) * HEIGHT);
             assert!((share - 1.0).abs() < 0.01, "{name}, {count} walls, {angle}: {share}");
-            let cover = cover(&region, &all, 0.1);
+            let cover = cover(&region, &all, 0.15);
             assert!(cover.outside < 0.005, "{name}: {cover:?}");
             assert!(cover.covered > 0.97, "{name}: {cover:?}");
         }

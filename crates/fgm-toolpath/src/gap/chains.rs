@@ -173,11 +173,12 @@ impl Graph {
         }
         for start in 0..n {
             let free = self.alive[start as usize] && !self.seen[start as usize];
-            if free && self.degree[start as usize] == 2 {
-                if let Some((edge, _)) = self.next(start, BORDER) {
-                    self.seen[start as usize] = true;
-                    out.push(self.walk(start, edge));
-                }
+            if free
+                && self.degree[start as usize] == 2
+                && let Some((edge, _)) = self.next(start, BORDER)
+            {
+                self.seen[start as usize] = true;
+                out.push(self.walk(start, edge));
             }
         }
         out

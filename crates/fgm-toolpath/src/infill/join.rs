@@ -29,7 +29,7 @@ pub(super) fn serpentines(centres: &[Polygon], lattice: &Lattice, beads: &Beads)
     let rings: Vec<&Ring> = centres.iter().flat_map(Polygon::rings).collect();
     let mut crossings = lattice.crossings(rings.iter().copied());
     if beads.spacing.is_some() {
-        crossings = without_tips(crossings, lattice.pitch);
+        crossings = without_tips(&crossings, lattice.pitch);
     }
     let mut joiner = Joiner::new(&rings, &crossings, lattice);
     let mut out = Vec::new();
@@ -49,8 +49,8 @@ pub(super) fn serpentines(centres: &[Polygon], lattice: &Lattice, beads: &Beads)
 }
 
 /// Leaves out short lines that only cut off the tip of a ring: a rim fills the tip better.
-fn without_tips(crossings: Vec<Crossing>, pitch: f64) -> Vec<Crossing> {
-    let after = neighbours(&crossings).0;
+fn without_tips(crossings: &[Crossing], pitch: f64) -> Vec<Crossing> {
+    let after = neighbours(crossings).0;
     let tip = |k: usize| {
         let (l, r) = (2 * k, 2 * k + 1);
         let short = crossings[r].u - crossings[l].u < 1.5 * pitch;

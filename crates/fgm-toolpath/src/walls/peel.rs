@@ -58,12 +58,12 @@ fn step(
     thin: &mut Vec<Polygon>,
 ) {
     let half = HALF_LOOP * spacing;
-    if let Some(rings) = inset.nested(&polygon, half, &[0.5 * spacing, spacing]) {
-        if let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings) {
-            loops.push(centre);
-            next.push(inner);
-            return;
-        }
+    if let Some(rings) = inset.nested(&polygon, half, &[0.5 * spacing, spacing])
+        && let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings)
+    {
+        loops.push(centre);
+        next.push(inner);
+        return;
     }
     let polygon = [polygon];
     let core = inset.inset(&polygon, half);
