@@ -52,34 +52,103 @@ impl Segment {
     }
 }
 
+/// Height of the strips in which segments are compared, in mean heights of segments.
+const STRIP_HEIGHT: f64 = 2.0;
+const MOST_STRIPS: f64 = 4096.0;
+
 /// Finds the pairs of segments that cross or touch, other than neighbours at their joint.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
     order: Vec<(f64, u32)>,
+    /// For each strip, where its segments begin in `members`, which are in the order of x.
+    offsets: Vec<u32>,
+    members: Vec<u32>,
     open: Vec<u32>,
 }
 
+/// Level strips of the plane.
+#[derive(Clone, Copy)]
+struct Strips {
+    bottom: f64,
+    height: f64,
+    count: usize,
+}
+
+impl Strips {
+    fn new(segments: &[Segment]) -> Self {
+        let (mut bottom, mut top, mut total) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
+        for s in segments {
+            bottom = s.a.y.min(s.b.y).min(bottom);
+            top = s.a.y.max(s.b.y).max(top);
+            total += (s.a.y - s.b.y).abs();
+        }
+        let n = segments.len() as f64;
+        let count = ((top - bottom) * n / (STRIP_HEIGHT * total)).min(n).clamp(1.0, MOST_STRIPS);
+        let count = if count.is_nan() { 1 } else { count as usize };
+        Self { bottom, height: (top - bottom) / count as f64, count }
+    }
+
+    fn of(&self, y: f64) -> usize {
+        (((y - self.bottom) / self.height) as usize).min(self.count - 1)
+    }
+
+    fn range(&self, s: &Segment) -> std::ops::RangeInclusive<usize> {
+        self.of(s.a.y.min(s.b.y))..=self.of(s.a.y.max(s.b.y))
+    }
+}
+
 impl Contacts {
-    /// Calls `found` with the indices of every such pair, lesser x first. Sorts by x and compares
-    /// with the segments still open there.
+    /// Calls `found` once with the indices of every such pair. Each strip of the plane is swept
+    /// along x, every segment compared with those that are still open there.
     pub(crate) fn find(&mut self, segments: &[Segment], mut found: impl FnMut(usize, usize)) {
+        let strips = Strips::new(segments);
+        self.sort(segments, &strips);
+        for strip in 0..strips.count {
+            self.open.clear();
+            let range = self.offsets[strip] as usize..self.offsets[strip + 1] as usize;
+            for &k in &self.members[range] {
+                let new = &segments[k as usize];
+                let (x, low) = (new.a.x.min(new.b.x), new.a.y.min(new.b.y));
+                self.open.retain(|&o| {
+                    let old = &segments[o as usize];
+                    if old.a.x.max(old.b.x) < x {
+                        return false;
+                    }
+                    // In several strips together, they meet in the lowest of those.
+                    let here = || strips.of(low.max(old.a.y.min(old.b.y))) == strip;
+                    if old.boxes_meet(new) && here() && old.touches(new) {
+                        found(o as usize, k as usize);
+                    }
+                    true
+                });
+                self.open.push(k);
+            }
+        }
+    }
+
+    fn sort(&mut self, segments: &[Segment], strips: &Strips) {
         self.order.clear();
         self.order.extend(segments.iter().enumerate().map(|(k, s)| (s.a.x.min(s.b.x), k as u32)));
         self.order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        self.open.clear();
-        for &(x, k) in &self.order {
-            let new = &segments[k as usize];
-            self.open.retain(|&o| {
-                let old = &segments[o as usize];
-                if old.a.x.max(old.b.x) < x {
-                    return false;
-                }
-                if old.boxes_meet(new) && old.touches(new) {
-                    found(o as usize, k as usize);
-                }
-                true
-            });
-            self.open.push(k);
+        // Counted one place up, so that filling moves each beginning to where it belongs.
+        self.offsets.clear();
+        self.offsets.resize(strips.count + 2, 0);
+        for segment in segments {
+            for strip in strips.range(segment) {
+                self.offsets[strip + 2] += 1;
+            }
+        }
+        for strip in 2..self.offsets.len() {
+            self.offsets[strip] += self.offsets[strip - 1];
+        }
+        self.members.clear();
+        self.members.resize(self.offsets[strips.count + 1] as usize, 0);
+        for &(_, k) in &self.order {
+            for strip in strips.range(&segments[k as usize]) {
+                let slot = &mut self.offsets[strip + 1];
+                self.members[*slot as usize] = k;
+                *slot += 1;
+            }
         }
     }
 

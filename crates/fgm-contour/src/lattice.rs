@@ -61,7 +61,7 @@ impl Lattice {
     pub(crate) fn new(window: &Bounds2, cell: f64, closed: bool) -> Result<Self, ContourError> {
         let count = window.size() / cell;
         let limit = MAX_CELLS_A_SIDE;
-        if !(count.max_element() <= f64::from(limit)) {
+        if count.max_element() > f64::from(limit) {
             return Err(ContourError::TooManyCells { columns: count.x, rows: count.y, limit });
         }
         Ok(Self {

@@ -63,13 +63,12 @@ impl Marcher {
         for c in 0..cells {
             let classes = [low[c], low[c + 1], high[c + 1], high[c]];
             let first = classes[0];
-            if first == classes[1] && first == classes[2] && first == classes[3] {
-                left = None;
-            } else if classes.contains(&NAN_CLASS) {
-                left = None;
+            let uniform = first == classes[1] && first == classes[2] && first == classes[3];
+            left = if uniform || classes.contains(&NAN_CLASS) {
+                None
             } else {
-                left = self.cell(row, c, classes, left, levels, graph);
-            }
+                self.cell(row, c, classes, left, levels, graph)
+            };
         }
     }
 

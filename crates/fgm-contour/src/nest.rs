@@ -15,15 +15,15 @@ pub fn nest(rings: Vec<Ring>) -> Vec<Polygon> {
     let rings: Vec<Ring> =
         rings.into_iter().filter(|r| r.points.len() > 2 && r.area() != 0.0).collect();
     let around = containing(&rings);
-    let kept = around.iter().map(|a| Some(a.len() % 2 == 1)).collect();
-    assemble(rings, &around, kept)
+    let kept: Vec<_> = around.iter().map(|a| Some(a.len() % 2 == 1)).collect();
+    assemble(rings, &around, &kept)
 }
 
 /// Makes polygons: `hole` says for each ring whether it is one, or none that it is no border.
 pub(crate) fn assemble(
     rings: Vec<Ring>,
     around: &[Vec<u32>],
-    hole: Vec<Option<bool>>,
+    hole: &[Option<bool>],
 ) -> Vec<Polygon> {
     let areas: Vec<f64> = rings.iter().map(|r| r.area().abs()).collect();
     let mut polygons: Vec<Polygon> = Vec::new();
@@ -121,9 +121,9 @@ impl Strips {
         let mut next = strips.offsets.clone();
         strips.edges.resize(strips.offsets[count] as usize, (0, 0));
         for (ring, edge, a, b) in all() {
-            for s in strips.index(a.min(b))..=strips.index(a.max(b)) {
-                strips.edges[next[s] as usize] = (ring, edge);
-                next[s] += 1;
+            for slot in &mut next[strips.index(a.min(b))..=strips.index(a.max(b))] {
+                strips.edges[*slot as usize] = (ring, edge);
+                *slot += 1;
             }
         }
         strips

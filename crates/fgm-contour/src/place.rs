@@ -135,7 +135,7 @@ fn order_crowded(task: &Task<'_>, graph: &Graph, tolerance: f64, positions: &mut
             let level = task.levels[usize::from(graph.nodes[k].level)];
             let above = task.levels[usize::from(graph.nodes[k + 1].level)] - level;
             let length = low.distance(limit);
-            if length <= 2.0 * tolerance || !(above > 0.0) {
+            if length <= 2.0 * tolerance {
                 continue;
             }
             let mut bracket = Bracket::new(low_value - level, above);

@@ -46,7 +46,7 @@ impl Probe<'_> {
         let (at_p, at_q) = (self.value(p), self.value(q));
         let straddles = (at_p < 0.0 && at_q >= 0.0) || (at_p >= 0.0 && at_q < 0.0);
         let length = p.distance(q);
-        if !straddles || !(length > 0.0) {
+        if !straddles || length == 0.0 {
             return None;
         }
         let mut bracket = Bracket::new(at_p, at_q);
@@ -156,8 +156,12 @@ impl Probe<'_> {
         let step = outwards * CORNER_TOLERANCE.min(0.25 * shortest);
         let turns = self.is_low(corner - step) == turns_left;
         let proven = turns && self.runs_along(a, corner) && self.runs_along(corner, b);
-        // Where two regions meet in a point, the curve does not pass beyond the corner: it stays.
-        proven.then(|| self.root(corner - step, corner + step).unwrap_or(corner))
+        if !proven {
+            return None;
+        }
+        // Where two regions meet in a point, what lies beyond the corner is the other one.
+        let meets = || self.value(corner).abs() <= 1e-3 * self.value(corner - step).abs();
+        self.root(corner - step, corner + step).or_else(|| meets().then_some(corner))
     }
 
     fn runs_along(&self, p: Point2, q: Point2) -> bool {

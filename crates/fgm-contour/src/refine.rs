@@ -193,13 +193,14 @@ impl Refiner {
             for (slot, a, b) in slots(chain, chains, positions) {
                 let mut from = a;
                 let mut tag = NO_EXTRA;
-                if let Some((id, extra)) = extras.next_if(|(_, e)| e.slot == slot) {
-                    if !extra.dropped && !self.dead[index] {
-                        tag = if extra.risky { id as u32 } else { NO_EXTRA };
-                        for &to in &self.points[extra.from..extra.to] {
-                            self.segments.push(Segment { a: from, b: to, tag });
-                            from = to;
-                        }
+                if let Some((id, extra)) = extras.next_if(|(_, e)| e.slot == slot)
+                    && !extra.dropped
+                    && !self.dead[index]
+                {
+                    tag = if extra.risky { id as u32 } else { NO_EXTRA };
+                    for &to in &self.points[extra.from..extra.to] {
+                        self.segments.push(Segment { a: from, b: to, tag });
+                        from = to;
                     }
                 }
                 if !self.dead[index] {
@@ -230,10 +231,10 @@ impl Refiner {
             }
             for slot in chain.from..chain.to {
                 lines.points.push(positions[chains.nodes[slot] as usize]);
-                if let Some(extra) = extras.next_if(|e| e.slot == slot) {
-                    if !extra.dropped {
-                        lines.points.extend_from_slice(&self.points[extra.from..extra.to]);
-                    }
+                if let Some(extra) = extras.next_if(|e| e.slot == slot)
+                    && !extra.dropped
+                {
+                    lines.points.extend_from_slice(&self.points[extra.from..extra.to]);
                 }
             }
             lines.finish(chain.closed, chain.level);

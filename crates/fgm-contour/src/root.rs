@@ -47,7 +47,7 @@ impl Bracket {
             return true;
         }
         if width <= tolerance || self.steps >= MOST_STEPS {
-            let best = usize::from(!(self.f[0].abs() <= self.f[1].abs()));
+            let best = usize::from(self.f[0].abs() > self.f[1].abs());
             self.guess = self.t[best];
             return true;
         }

@@ -53,7 +53,7 @@ pub(crate) struct Simplifier {
 impl Simplifier {
     /// Removes what lies within `tolerance`, without a new contact between any two lines.
     pub(crate) fn run(&mut self, lines: &mut Lines, tolerance: f64) {
-        if !(tolerance > 0.0) {
+        if tolerance.is_nan() || tolerance <= 0.0 {
             return;
         }
         self.keep.clear();

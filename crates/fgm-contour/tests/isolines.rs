@@ -30,16 +30,14 @@ fn assert_sound(lines: &[LevelLines], field: &dyn Fn(Point2) -> f64, window: &Bo
             let ends = [points[0], points[points.len() - 1]];
             assert!(ends.iter().all(|&p| at_edge(p, window)), "{ends:?}");
         }
-        // By length, since beside a chord that cuts a bend the sides may be those of elsewhere.
-        let (mut right, mut wrong) = (0.0, 0.0);
-        for w in points.windows(2) {
-            let step = (w[1] - w[0]).perp().normalize() * 0.02;
-            let middle = w[0].midpoint(w[1]);
-            let (left, right_of) = (field(middle + step), field(middle - step));
-            let sum = if left < right_of { &mut right } else { &mut wrong };
-            *sum += w[0].distance(w[1]);
+        // At vertices, which lie on the curve; the direction there is that of the chord past them.
+        let (mut right, mut wrong) = (0, 0);
+        for w in points.windows(3) {
+            let step = (w[2] - w[0]).perp().normalize_or_zero() * 1e-5;
+            let rises = field(w[1] + step) < field(w[1] - step);
+            *(if rises { &mut right } else { &mut wrong }) += 1;
         }
-        assert!(right >= wrong, "level {level}: {right} mm run rightly, {wrong} wrongly");
+        assert!(right >= wrong, "level {level}: {right} vertices run rightly, {wrong} wrongly");
     }
     assert_apart(points(lines).map(|l| (l.1, l.2)));
 }

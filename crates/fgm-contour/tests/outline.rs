@@ -1,5 +1,8 @@
 //! Regions of fields.
 
+// Helpers outside of test functions may fail tests too.
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{area, assert_valid, turned_box};

@@ -1,5 +1,8 @@
 //! Plane sections of meshes.
 
+// Helpers outside of test functions may fail tests too.
+#![allow(clippy::unwrap_used)]
+
 mod common;
 
 use common::{area, assert_valid, both, box_mesh, soup};

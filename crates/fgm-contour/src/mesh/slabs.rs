@@ -46,9 +46,9 @@ impl Slabs {
         let mut next = slabs.offsets.clone();
         slabs.triangles.resize(slabs.offsets[count] as usize, 0);
         for (t, &(lo, hi)) in spans.iter().enumerate() {
-            for s in slabs.index(lo)..=slabs.index(hi) {
-                slabs.triangles[next[s] as usize] = t as u32;
-                next[s] += 1;
+            for slot in &mut next[slabs.index(lo)..=slabs.index(hi)] {
+                slabs.triangles[*slot as usize] = t as u32;
+                *slot += 1;
             }
         }
         slabs

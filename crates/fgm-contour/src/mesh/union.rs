@@ -27,8 +27,8 @@ pub(crate) fn unite(rings: Vec<Ring>) -> Vec<Polygon> {
             _ => None,
         }
     };
-    let holes = (0..rings.len()).map(border).collect();
-    assemble(rings, &around, holes)
+    let holes: Vec<_> = (0..rings.len()).map(border).collect();
+    assemble(rings, &around, &holes)
 }
 
 /// Whether any two edges of the rings cross or touch, other than neighbours at their joint.
