@@ -40,8 +40,9 @@ pub struct EdgeLabel<L> {
 
 /// The planar subdivision that a set of chains makes: vertices, edges, faces.
 ///
-/// Numbers follow from places alone: the same lines in another order, direction or number of
-/// copies give the same vertices, edges and faces with the same names.
+/// Names follow from places, not from the order of the input: the same lines in another order,
+/// direction or number of copies give the same faces with the same names and points. (Edges end
+/// where labels or their directions change, so copies in the other direction may change edges.)
 #[derive(Clone, Debug)]
 pub struct Arrangement<L> {
     pub(crate) topology: Topology,

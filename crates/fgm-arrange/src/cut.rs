@@ -143,7 +143,11 @@ impl Found {
         let base = i as f64;
         if s != 0.0 && t != 0.0 && u != 0.0 && v != 0.0 {
             let [after, before] = if s < 0.0 { sides } else { [sides[1], sides[0]] };
-            let at = base + (s / (s - t)).clamp(0.0, 1.0);
+            // The signs are exact, the sizes are not: they are taken relative to a point of the
+            // edge, so that a far end of the path does not blur them.
+            let (s, t) = ((d - c).perp_dot(a - c), (d - c).perp_dot(b - c));
+            let share = s / (s - t);
+            let at = base + if share.is_nan() { 0.5 } else { share.clamp(0.0, 1.0) };
             self.contacts.push(Contact { at, before, after });
             return;
         }

@@ -1,4 +1,4 @@
-use crate::predicate::by_place;
+use crate::predicate::{by_angle, by_place};
 use crate::topology::{FaceRecord, NONE, Topology};
 use fgm_core::Point2;
 use std::cmp::Ordering;
@@ -12,6 +12,12 @@ struct Cycle {
     twice_area: i128,
     /// The face to its left.
     face: u32,
+    /// The least of its points.
+    least: Point2,
+}
+
+fn lesser(a: Point2, b: Point2) -> Point2 {
+    if by_place(b, a) == Ordering::Less { b } else { a }
 }
 
 /// Union-find with halving paths.
@@ -59,6 +65,7 @@ impl Topology {
     /// them.
     pub(crate) fn find_faces(&mut self) {
         let (mut cycles, mut cycle_of) = self.walk();
+        self.name_faces(&mut cycles);
         self.components = cycles.iter().filter(|c| c.twice_area <= 0).count();
         if self.components > 1 {
             self.nest(&mut cycles, &cycle_of);
@@ -74,22 +81,72 @@ impl Topology {
         let areas: Vec<_> =
             (0..self.ends.len()).map(|edge| twice_area(self.line(edge), false)).collect();
         let mut cycle_of = vec![NONE; self.next.len()];
-        let (mut cycles, mut faces) = (Vec::new(), 0);
+        let least = self.least_points();
+        let mut cycles = Vec::new();
         for half in 0..self.next.len() as u32 {
             if cycle_of[half as usize] != NONE {
                 continue;
             }
-            let mut sum = 0;
+            let mut cycle =
+                Cycle { half, twice_area: 0, face: NONE, least: least[half as usize / 2] };
             for h in self.cycle(half) {
                 cycle_of[h as usize] = cycles.len() as u32;
-                let area = areas[h as usize / 2];
-                sum += if h & 1 == 0 { area } else { -area };
+                let edge = h as usize / 2;
+                cycle.twice_area += if h & 1 == 0 { areas[edge] } else { -areas[edge] };
+                cycle.least = lesser(cycle.least, least[edge]);
             }
-            let face = if sum > 0 { faces } else { NONE };
-            faces += u32::from(sum > 0);
-            cycles.push(Cycle { half, twice_area: sum, face });
+            cycles.push(cycle);
         }
         (cycles, cycle_of)
+    }
+
+    /// The least point of each edge.
+    fn least_points(&self) -> Vec<Point2> {
+        let mut least: Vec<_> = self.ends.iter().map(|e| self.vertices[e[0] as usize]).collect();
+        for piece in &self.pieces {
+            let place = &mut least[piece.owner as usize];
+            let (first, last) = (piece.first as usize, piece.last as usize);
+            // Not at an end of the piece where that begins or ends upright.
+            if self.points[first].x.min(self.points[last].x) <= place.x {
+                *place = self.points[first..=last].iter().copied().fold(*place, lesser);
+            }
+        }
+        least
+    }
+
+    /// Numbers the bounded faces by the least points of their outer borders, and by the angle at
+    /// which the border leaves it: by place alone, so that labels and the number of vertices do
+    /// not matter.
+    fn name_faces(&self, cycles: &mut [Cycle]) {
+        let mut order: Vec<_> = (0..cycles.len()).filter(|&c| cycles[c].twice_area > 0).collect();
+        order.sort_unstable_by(|&a, &b| {
+            let (a, b) = (&cycles[a], &cycles[b]);
+            by_place(a.least, b.least).then_with(|| {
+                by_angle(self.leaving(a.half, a.least), self.leaving(b.half, b.least))
+            })
+        });
+        for (id, &c) in order.iter().enumerate() {
+            cycles[c].face = id as u32;
+        }
+    }
+
+    /// The direction in which a cycle leaves a point on it; the first by angle where it comes
+    /// there more than once.
+    fn leaving(&self, half: u32, point: Point2) -> Point2 {
+        let mut found: Option<Point2> = None;
+        for h in self.cycle(half) {
+            let line = self.line(h as usize / 2);
+            let mut check = |a: Point2, b: Point2| {
+                let less = |d| by_angle(b - a, d) == Ordering::Less;
+                if a == point && found.is_none_or(less) {
+                    found = Some(b - a);
+                }
+            };
+            for w in line.windows(2) {
+                if h & 1 == 0 { check(w[0], w[1]) } else { check(w[1], w[0]) }
+            }
+        }
+        found.unwrap_or_default()
     }
 
     /// Finds the face around each component: the one above the first edge straight below the
@@ -100,23 +157,12 @@ impl Topology {
             sets.join(a, b);
         }
         let component: Vec<_> = self.ends.iter().map(|ends| sets.find(ends[0])).collect();
-        let mut least: Vec<_> = self.vertices.clone();
-        for piece in &self.pieces {
-            let place = &mut least[component[piece.owner as usize] as usize];
-            for p in [self.points[piece.first as usize], self.points[piece.last as usize]] {
-                if by_place(p, *place) == Ordering::Less {
-                    *place = p;
-                }
-            }
-        }
-        let outer = |c: &Cycle| c.twice_area <= 0;
-        let mut order: Vec<_> = (0..cycles.len()).filter(|&c| outer(&cycles[c])).collect();
-        let place = |c: &Cycle| least[component[c.half as usize / 2] as usize];
-        order.sort_unstable_by(|&a, &b| by_place(place(&cycles[a]), place(&cycles[b])));
+        let mut order: Vec<_> = (0..cycles.len()).filter(|&c| cycles[c].twice_area <= 0).collect();
+        order.sort_unstable_by(|&a, &b| by_place(cycles[a].least, cycles[b].least));
         // What is hit belongs to a component that begins before this one, so its face is known.
         for c in order {
             let mine = component[cycles[c].half as usize / 2];
-            let below = self.below(place(&cycles[c]), |edge| component[edge as usize] != mine);
+            let below = self.below(cycles[c].least, |edge| component[edge as usize] != mine);
             if let Some(half) = below {
                 cycles[c].face = cycles[cycle_of[half as usize] as usize].face;
             }
@@ -125,12 +171,14 @@ impl Topology {
 
     fn record(&mut self, cycles: &[Cycle]) {
         let mut holes: Vec<_> = Vec::new();
-        let mut areas = Vec::new();
+        let bounded = cycles.iter().filter(|c| c.twice_area > 0).count();
+        let none = FaceRecord { outer: NONE, holes_start: 0, holes_end: 0, area: 0.0 };
+        self.faces = vec![none; bounded];
+        let mut areas = vec![0; bounded];
         for cycle in cycles {
             if cycle.twice_area > 0 {
-                let (outer, area) = (cycle.half, 0.0);
-                self.faces.push(FaceRecord { outer, holes_start: 0, holes_end: 0, area });
-                areas.push(cycle.twice_area);
+                self.faces[cycle.face as usize].outer = cycle.half;
+                areas[cycle.face as usize] = cycle.twice_area;
             } else if cycle.face == NONE {
                 self.outlines.push(cycle.half);
             } else {

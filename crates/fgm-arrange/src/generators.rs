@@ -29,15 +29,11 @@ impl Drawn {
 
 /// The lines as chains, labelled by index.
 pub fn chains(lines: &[Drawn]) -> Vec<Chain<'_, u32>> {
-    let chain = |(line, label): (&'_ Drawn, u32)| (line.closed, label);
-    lines
-        .iter()
-        .zip(0u32..)
-        .map(|(line, label)| {
-            let (closed, label) = chain((line, label));
-            Chain { points: &line.points, closed, label }
-        })
-        .collect()
+    let chain = |(line, label): (_, u32)| {
+        let Drawn { points, closed }: &Drawn = line;
+        Chain { points, closed: *closed, label }
+    };
+    lines.iter().zip(0..).map(chain).collect()
 }
 
 fn steps(x: i64, y: i64) -> Point2 {
@@ -187,6 +183,9 @@ pub fn layer(step: f64, isolines: usize) -> Vec<Drawn> {
     lines
 }
 
+/// An edge of the grid: its least corner, and whether it is upright.
+type Joint = (i64, i64, bool);
+
 /// Plain marching squares over a square of 140 mm.
 fn isoline(f: &dyn Fn(Point2) -> f64, level: f64, step: f64) -> Vec<Drawn> {
     let n = (140.0 / step).ceil() as i64;
@@ -194,8 +193,8 @@ fn isoline(f: &dyn Fn(Point2) -> f64, level: f64, step: f64) -> Vec<Drawn> {
     let values: Vec<Vec<f64>> =
         (0..=n).map(|j| (0..=n).map(|i| f(corner(i, j)) - level).collect()).collect();
     let value = |i: i64, j: i64| values[j as usize][i as usize];
-    // Each crossed edge of the grid: its neighbours along the line. Edge: cell and direction.
-    let mut joints: BTreeMap<(i64, i64, bool), Vec<(i64, i64, bool)>> = BTreeMap::new();
+    // Each crossed edge of the grid: its neighbours along the line.
+    let mut joints: BTreeMap<Joint, Vec<Joint>> = BTreeMap::new();
     for j in 0..n {
         for i in 0..n {
             let sides = [
@@ -204,7 +203,7 @@ fn isoline(f: &dyn Fn(Point2) -> f64, level: f64, step: f64) -> Vec<Drawn> {
                 ((i, j + 1, false), value(i + 1, j + 1), value(i, j + 1)),
                 ((i, j, true), value(i, j + 1), value(i, j)),
             ];
-            let crossed = |sides: &[((i64, i64, bool), f64, f64)], up: bool| -> Vec<_> {
+            let crossed = |sides: &[(Joint, f64, f64)], up: bool| -> Vec<_> {
                 let goes = |s: &&(_, f64, f64)| (s.1 < 0.0) != (s.2 < 0.0) && (s.1 < 0.0) == up;
                 sides.iter().filter(goes).map(|s| s.0).collect()
             };
@@ -214,7 +213,7 @@ fn isoline(f: &dyn Fn(Point2) -> f64, level: f64, step: f64) -> Vec<Drawn> {
             }
         }
     }
-    let place = |(i, j, upright): (i64, i64, bool)| {
+    let place = |(i, j, upright): Joint| {
         let (a, b) = if upright { ((i, j), (i, j + 1)) } else { ((i, j), (i + 1, j)) };
         let (u, v) = (value(a.0, a.1), value(b.0, b.1));
         corner(a.0, a.1).lerp(corner(b.0, b.1), u / (u - v))

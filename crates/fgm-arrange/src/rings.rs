@@ -1,5 +1,7 @@
+use crate::predicate::by_place;
 use crate::topology::Topology;
 use fgm_core::Point2;
+use std::cmp::Ordering;
 
 /// Turns cycles of half-edges into simple rings of points, the one that encloses first.
 pub(crate) struct Rings<'a> {
@@ -19,8 +21,9 @@ impl<'a> Rings<'a> {
 
     /// The rings: the outer one, then holes.
     pub(crate) fn finish(self) -> Vec<Vec<Point2>> {
-        let mut rings = vec![self.outer];
-        rings.extend(self.holes);
+        let mut rings = self.holes;
+        rings.sort_unstable_by(|a, b| by_place(a[0], b[0]).then_with(|| by_place(a[1], b[1])));
+        rings.insert(0, self.outer);
         rings
     }
 
@@ -118,6 +121,10 @@ impl<'a> Rings<'a> {
                 points.extend(line[1..].iter().rev());
             }
         }
+        // From the least point on, so that a ring is the same wherever its vertices are.
+        let less = |a: usize, b: usize| by_place(points[b], points[a]) == Ordering::Less;
+        let least = (0..points.len()).reduce(|a, b| if less(a, b) { b } else { a });
+        points.rotate_left(least.unwrap_or(0));
         if crate::faces::twice_area(&points, true) > 0 {
             self.outer = points;
         } else {

@@ -5,6 +5,7 @@ use crate::predicate::{by_place, orient, passes};
 use crate::slots::{Slots, too_many};
 use crate::tree::BoxTree;
 use fgm_core::{Bounds2, Point2};
+use std::cmp::Ordering;
 
 /// No hot pixel.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -92,7 +93,37 @@ impl Snap {
             a.segment.cmp(&b.segment).then_with(|| a.along.total_cmp(&b.along))
         });
         self.cuts.dedup_by_key(|cut| (cut.segment, cut.pixel));
+        self.unfold(&slots.points);
         Ok(())
+    }
+
+    /// Makes vertices of untouched slots whose two segments were led through one pixel: there the
+    /// line goes out and back, and the doubled edge must be seen as one.
+    fn unfold(&mut self, points: &[Point2]) {
+        let pairs = self.cuts.windows(2);
+        let folds = pairs.filter(|w| w[0].segment + 1 == w[1].segment && w[0].pixel == w[1].pixel);
+        let mut tips: Vec<_> =
+            folds.map(|w| w[1].segment).filter(|&s| self.of_slot[s as usize] == NONE).collect();
+        if tips.is_empty() {
+            return;
+        }
+        tips.sort_unstable_by(|&a, &b| by_place(points[a as usize], points[b as usize]));
+        // Nothing else is at these points, so they are new, each once.
+        let before = |at: Point2| {
+            let less = |&tip: &u32| by_place(points[tip as usize], at) == Ordering::Less;
+            tips.partition_point(less) as u32
+        };
+        let shift: Vec<_> = self.hot.iter().map(|&at| before(at)).collect();
+        let pixels = self.of_slot.iter_mut().chain(self.cuts.iter_mut().map(|cut| &mut cut.pixel));
+        for pixel in pixels.filter(|pixel| **pixel != NONE) {
+            *pixel += shift[*pixel as usize];
+        }
+        self.hot.extend(tips.iter().map(|&tip| points[tip as usize]));
+        self.hot.sort_unstable_by(|&a, &b| by_place(a, b));
+        for (k, &tip) in tips.iter().enumerate() {
+            let old = shift.partition_point(|&s| s <= k as u32);
+            self.of_slot[tip as usize] = (old + k) as u32;
+        }
     }
 
     /// Names the hot pixels: ends of chains, touched slots, crossings.

@@ -1,5 +1,6 @@
-use crate::graph::{Graph, origin};
+use crate::graph::Graph;
 use crate::noder::Noder;
+use crate::numbering::Numbering;
 use crate::piece::{self, Piece};
 use crate::tree::BoxTree;
 use fgm_core::Point2;
@@ -114,110 +115,5 @@ impl Topology {
         }
         let bounds: Vec<_> = self.pieces.iter().map(|piece| piece.bounds(&self.points)).collect();
         self.tree.build(&bounds, keys);
-    }
-}
-
-/// Turns arcs into edges: arcs that go on into each other become one edge.
-struct Numbering<'a> {
-    noder: &'a Noder,
-    graph: &'a Graph,
-    /// For each half-arc that begins or ends an edge at a vertex, the half-edge.
-    half_edge: Vec<u32>,
-    /// For each node its vertex.
-    vertex: Vec<u32>,
-    done: Vec<bool>,
-}
-
-impl<'a> Numbering<'a> {
-    fn new(noder: &'a Noder, graph: &'a Graph) -> Self {
-        let arcs = noder.arcs.len();
-        let half_edge = vec![NONE; 2 * arcs];
-        Self {
-            noder,
-            graph,
-            half_edge,
-            vertex: vec![NONE; noder.nodes().len()],
-            done: vec![false; arcs],
-        }
-    }
-
-    fn run(mut self, out: &mut Topology) {
-        let (graph, arcs, nodes) = (self.graph, &self.noder.arcs[..], self.noder.nodes().len());
-        out.points.reserve(self.noder.points.len());
-        // Nodes where something happens are vertices; so is the least one of each ring without.
-        for node in 0..nodes {
-            let around = graph.around(node);
-            let passes = matches!(around, [_, b] if graph.straight_on(arcs, b ^ 1).is_some());
-            if !around.is_empty() && !passes {
-                self.vertex[node] = 0;
-            }
-        }
-        for only_rings in [false, true] {
-            for node in 0..nodes {
-                if self.vertex[node] == NONE && !only_rings {
-                    continue;
-                }
-                for &half in graph.around(node) {
-                    if !self.done[half as usize / 2] {
-                        self.vertex[node] = 0;
-                        self.edge(half, out);
-                    }
-                }
-            }
-        }
-        out.edge_starts.push(out.points.len() as u32);
-        out.label_starts.push(out.labels.len() as u32);
-        self.vertices(out);
-    }
-
-    /// Writes the edge that begins with a half-arc.
-    fn edge(&mut self, first: u32, out: &mut Topology) {
-        let (arcs, points) = (&self.noder.arcs[..], &self.noder.points[..]);
-        let edge = out.ends.len() as u32;
-        out.edge_starts.push(out.points.len() as u32);
-        out.label_starts.push(out.labels.len() as u32);
-        out.labels.extend(self.graph.labels(first / 2).map(|label| label ^ (first & 1)));
-        let labels = out.label_starts[edge as usize] as usize;
-        out.labels[labels..].sort_unstable();
-        out.bridge.push(self.graph.bridge[first as usize / 2]);
-        let start = origin(arcs, first);
-        let mut half = first;
-        loop {
-            let arc = &arcs[half as usize / 2];
-            self.done[half as usize / 2] = true;
-            // The last point is the next arc's first.
-            if half & 1 == 0 {
-                out.points.extend_from_slice(&points[arc.first as usize..arc.last as usize]);
-            } else {
-                out.points.extend(points[arc.first as usize + 1..=arc.last as usize].iter().rev());
-            }
-            let end = origin(arcs, half ^ 1);
-            if end == start || self.vertex[end as usize] != NONE {
-                out.points.push(self.noder.nodes()[end as usize]);
-                out.ends.push([start, end]);
-                break;
-            }
-            let Some(onward) = self.graph.straight_on(arcs, half) else { break };
-            half = onward;
-        }
-        self.half_edge[first as usize] = 2 * edge;
-        self.half_edge[half as usize ^ 1] = 2 * edge + 1;
-    }
-
-    /// Numbers the vertices and writes what is around them.
-    fn vertices(mut self, out: &mut Topology) {
-        for (node, &place) in self.noder.nodes().iter().enumerate() {
-            if self.vertex[node] == NONE {
-                continue;
-            }
-            self.vertex[node] = out.vertices.len() as u32;
-            out.vertices.push(place);
-            out.vertex_starts.push(out.around.len() as u32);
-            out.around.extend(self.graph.around(node).iter().map(|&h| self.half_edge[h as usize]));
-        }
-        out.vertex_starts.push(out.around.len() as u32);
-        for node in out.ends.iter_mut().flatten() {
-            *node = self.vertex[*node as usize];
-        }
     }
 }

@@ -101,7 +101,16 @@ impl<L> Arrangement<L> {
 
     fn inside_points(&self, id: FaceId) -> Result<(), Invalid> {
         let p = self.face(id).inside_point();
-        if self.locate(p) == Location::Face(id) || self.is_thin(&self.face(id).polygon()) {
+        let inside = match self.locate(p) {
+            Location::Face(face) => face == id,
+            Location::Unbounded => false,
+            // A point on a dangling edge is inside all the same.
+            Location::Edge(_) | Location::Vertex(_) => {
+                self.edges().any(|e| e.is_dangling())
+                    && self.topology.face_at(self.lattice.scaled(p)) == id.0
+            }
+        };
+        if inside || self.is_thin(&self.face(id).polygon()) {
             return Ok(());
         }
         Err(Invalid::InsidePoint { face: id, x: p.x, y: p.y })

@@ -2,8 +2,8 @@
 //! same whatever the order of the input.
 //!
 //! `FGM_LONG_TESTS=<cases>` sets the number of cases of each property.
-#![cfg(feature = "generators")]
 
+#![allow(clippy::unwrap_used)] // Helpers of tests, which clippy does not see as tests.
 use fgm_arrange::generators::{self, Drawn, STEP, chains};
 use fgm_arrange::{ArrangeOptions, Arrangement, Location};
 use fgm_core::{Point2, point_at};
@@ -11,7 +11,10 @@ use proptest::prelude::*;
 
 fn config(cases: u32) -> ProptestConfig {
     let long = std::env::var("FGM_LONG_TESTS").ok().and_then(|n| n.parse().ok());
-    ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(long.unwrap_or(cases)) }
+    ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::with_cases(long.unwrap_or(cases))
+    }
 }
 
 fn arrange(lines: &[Drawn], keep: bool) -> Arrangement<u32> {

@@ -1,5 +1,7 @@
 //! Small cases, drawn by hand: what faces come out.
 
+#![allow(clippy::unwrap_used)] // Helpers of tests, which clippy does not see as tests.
+
 use fgm_arrange::{ArrangeError, ArrangeOptions, Arrangement, Chain, Location};
 use fgm_core::Point2;
 
