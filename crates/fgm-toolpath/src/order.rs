@@ -2,7 +2,6 @@ use fgm_core::{ColorId, Point2, Role};
 
 use crate::{
     Piece,
-    order_link::Meeting,
     order_near::Near,
     travel::{Leg, improve},
 };
@@ -122,8 +121,9 @@ fn order_group(
     out: &mut Vec<Piece>,
 ) -> Point2 {
     let mut ends = Ends::of(pieces, options.seam);
-    ends.link();
-    let mut legs = ends.tour(start);
+    let mut near = Near::new(&ends.at);
+    ends.link(&near);
+    let mut legs = ends.tour(&mut near, start);
     improve(&mut legs, start, options.improve);
 
     let mut taken = vec![false; pieces.len()];
@@ -248,11 +248,10 @@ impl Ends {
     }
 
     /// Joins open pieces that meet into chains.
-    fn link(&mut self) {
-        let meeting = Meeting::new(&self.at);
+    fn link(&mut self, near: &Near) {
         // The other end of the chain that ends here.
         let mut far: Vec<u32> = (0..self.at.len() as u32).map(|id| self.other(id)).collect();
-        for id in 0..self.at.len() as u32 {
+        for id in near.ids() {
             // A loop's ends have themselves at the other end.
             if self.link[id as usize] != NONE || far[id as usize] == id {
                 continue;
@@ -262,7 +261,7 @@ impl Ends {
                     && far[other as usize] != other
                     && far[id as usize] != other
             };
-            if let Some(other) = meeting.of(id, accept) {
+            if let Some(other) = near.other_at(id, MEETS, accept) {
                 (self.link[id as usize], self.link[other as usize]) = (other, id);
                 let (a, b) = (far[id as usize], far[other as usize]);
                 (far[a as usize], far[b as usize]) = (b, a);
@@ -282,8 +281,7 @@ impl Ends {
     }
 
     /// Chains and loops, each the nearest one to the end of the one before.
-    fn tour(&self, start: Point2) -> Vec<Leg> {
-        let mut near = Near::new(&self.at);
+    fn tour(&self, near: &mut Near, start: Point2) -> Vec<Leg> {
         let inside = self.link.iter().zip(0..).filter(|(link, _)| **link != NONE);
         inside.for_each(|(_, id)| near.remove(id));
         let mut legs = Vec::with_capacity(self.open.len());

@@ -165,6 +165,38 @@ impl Near {
         best.id
     }
 
+    /// The point nearest to point `id`, not farther than `within` mm, that `accept` takes; of
+    /// equally near ones the one with the least number.
+    pub(crate) fn other_at(
+        &self,
+        id: u32,
+        within: f64,
+        accept: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let p = self.entries[self.place[id as usize] as usize].at;
+        let mut best = (within * within, u32::MAX);
+        for row in self.row(p - within)..=self.row(p + within) {
+            for column in self.column(p - within)..=self.column(p + within) {
+                let cell = row * self.columns + column;
+                let start = self.starts[cell] as usize;
+                for entry in &self.entries[start..start + self.counts[cell] as usize] {
+                    let distance = entry.at.distance_squared(p);
+                    if (distance, entry.id) < best && entry.id != id && accept(entry.id) {
+                        best = (distance, entry.id);
+                    }
+                }
+            }
+        }
+        (best.1 != u32::MAX).then_some(best.1)
+    }
+
+    /// Every point that is left, neighbours near each other.
+    pub(crate) fn ids(&self) -> Vec<u32> {
+        let cells = self.starts.iter().zip(&self.counts);
+        let cells = cells.map(|(&start, &count)| start as usize..(start + count) as usize);
+        cells.flat_map(|cell| self.entries[cell].iter().map(|entry| entry.id)).collect()
+    }
+
     /// Offers the points of some cells of a row.
     fn scan(&self, row: usize, left: usize, right: usize, p: Point2, best: &mut Best) {
         for cell in row * self.columns + left..=row * self.columns + right {
@@ -197,31 +229,55 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn points(raw: &[(i32, i32)], unit: f64) -> Vec<Point2> {
+        raw.iter().map(|p| Point2::new(f64::from(p.0), f64::from(p.1)) * unit).collect()
+    }
+
     proptest! {
         #[test]
-        fn as_a_plain_search_finds(
-            points in prop::collection::vec((0..12i32, 0..12i32), 0..120),
-            queries in prop::collection::vec((-3.0..15.0f64, -3.0..15.0f64), 1..60),
+        fn nearest_as_a_plain_search_finds(
+            raw in prop::collection::vec((0..12i32, 0..12i32), 0..120),
+            queries in prop::collection::vec((-3.0..15.0f64, -3.0..15.0f64), 1..120),
         ) {
-            let points: Vec<_> =
-                points.iter().map(|p| Point2::new(f64::from(p.0), f64::from(p.1))).collect();
+            let points = points(&raw, 1.0);
             let mut near = Near::new(&points);
             let mut live: Vec<bool> = vec![true; points.len()];
             for (x, y) in queries {
                 let p = Point2::new(x, y);
                 let least = (0..points.len())
                     .filter(|&i| live[i])
-                    .map(|i| points[i].distance_squared(p))
-                    .fold(f64::INFINITY, f64::min);
+                    .map(|i| (points[i].distance_squared(p), i as u32))
+                    .min_by(|a, b| a.partial_cmp(b).unwrap());
                 let found = near.nearest(p);
-                prop_assert_eq!(found.is_some(), live.contains(&true));
+                prop_assert_eq!(found, least.map(|(_, id)| id));
                 if let Some(id) = found {
-                    prop_assert!(live[id as usize]);
-                    prop_assert_eq!(points[id as usize].distance_squared(p), least);
                     near.remove(id);
                     near.remove(id);
                     live[id as usize] = false;
                 }
+                let mut ids = near.ids();
+                ids.sort_unstable();
+                prop_assert!(ids.into_iter().eq((0..).zip(&live).filter(|l| *l.1).map(|l| l.0)));
+            }
+        }
+
+        #[test]
+        fn others_as_a_plain_search_finds(
+            raw in prop::collection::vec((0..40i32, 0..40i32), 1..120),
+            within in 0..4i32,
+        ) {
+            let (points, within) = (points(&raw, 0.25), f64::from(within) * 0.25);
+            let near = Near::new(&points);
+            for (p, id) in points.iter().zip(0_u32..) {
+                let accept = |other: u32| !other.is_multiple_of(3);
+                let plain = points
+                    .iter()
+                    .zip(0_u32..)
+                    .filter(|&(_, other)| other != id && accept(other))
+                    .map(|(q, other)| (p.distance_squared(*q), other))
+                    .filter(|(d, _)| *d <= within * within)
+                    .min_by(|a, b| a.partial_cmp(b).unwrap());
+                prop_assert_eq!(near.other_at(id, within, accept), plain.map(|(_, other)| other));
             }
         }
     }

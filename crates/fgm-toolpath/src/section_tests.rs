@@ -114,6 +114,19 @@ fn joined_lines_alternate_and_layers_may_shift_them() {
     assert_eq!(told(&out), "0:0,0 2,0 | 1:2,0 4,0 4,1 | 0:4,1 0,1 0,2 2,2 | 1:2,2 4,2");
 }
 
+/// The cut before and the cut after the first vertex were told apart by a sum of parameters, which
+/// moved the second by a rounding error.
+#[test]
+fn regression_pieces_over_the_first_vertex_meet_the_next() {
+    let bands = zipped([4.163836983084276, 4.17, 9.0, 9.5]);
+    let ring = [(0.5, 4.0), (9.7, 4.0017), (9.9, 7.0), (0.1, 7.0)];
+    let pieces = cut(&[path(&ring, true, 1)], &bands, 0.0);
+    for (piece, next) in pieces.iter().zip(pieces.iter().cycle().skip(1)) {
+        assert_eq!(piece.points.last(), next.points.first());
+    }
+    assert!(pieces.len() > 2);
+}
+
 fn any_path() -> impl Strategy<Value = Path> {
     // Whole and half coordinates fall on edges and vertices often.
     let along = prop_oneof![(0..20i32).prop_map(|i| f64::from(i) * 0.5), 0.0..10.0f64];

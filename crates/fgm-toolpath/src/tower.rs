@@ -39,6 +39,11 @@ impl Default for TowerOptions {
 }
 
 impl TowerOptions {
+    /// The defaults for beads of this width and, in the thinnest layer, this height, mm.
+    pub fn new(width: f64, height: f64) -> Self {
+        Self { width, height, ..Self::default() }
+    }
+
     /// Length of bead that holds the volume, mm.
     pub fn length(&self) -> f64 {
         self.volume / bead::area(self.width, self.height)
@@ -90,7 +95,8 @@ impl TowerOptions {
 ///   whole, so that it sticks.
 ///
 /// A spot is left alone above the layer told to [`Towers::finish`]; a stream that does not know
-/// what is above need not call it. [`Towers::print`] applies all of this to a layer.
+/// what is above need not call it. [`Towers::print`] applies all of this to a layer,
+/// [`Towers::keep_others`] the second part.
 ///
 /// Lines run along x on even layers and along y on odd ones.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,12 +190,23 @@ impl Towers {
         out: &mut Vec<Piece>,
     ) {
         let Some(&hand) = used.first() else { return };
-        for (spot, last) in self.last.iter().enumerate() {
-            let color = ColorId(spot as u16);
-            if used.contains(&color) && !(hand == color && previous == Some(color)) {
-                self.purge(color, layer, out);
-            } else if last.is_none_or(|last| layer <= last) {
-                self.keep(color, hand, layer, out);
+        let changes = if previous == Some(hand) { &used[1..] } else { used };
+        changes.iter().for_each(|&color| self.purge(color, layer, out));
+        self.keep_others(changes, hand, layer, out);
+    }
+
+    /// Appends what every spot but those of `purged` needs to grow, printed in colour `with`; for
+    /// those who place the purges of a layer themselves.
+    pub fn keep_others(
+        &self,
+        purged: &[ColorId],
+        with: ColorId,
+        layer: usize,
+        out: &mut Vec<Piece>,
+    ) {
+        for (last, color) in self.last.iter().zip((0..).map(ColorId)) {
+            if !purged.contains(&color) && last.is_none_or(|last| layer <= last) {
+                self.keep(color, with, layer, out);
             }
         }
     }

@@ -175,9 +175,9 @@ fn told(towers: &Towers, used: &[u16], previous: Option<u16>, layer: usize) -> S
 #[test]
 fn every_spot_grows_until_told_it_is_over() {
     let mut towers = place(&TowerOptions::default(), 3);
-    assert_eq!(told(&towers, &[1, 2], None, 0), "0P1 1P1 2P2");
-    assert_eq!(told(&towers, &[2, 1], Some(2), 1), "0l2 1P1 2l2");
-    assert_eq!(told(&towers, &[1, 2], Some(2), 2), "0l1 1P1 2P2");
+    assert_eq!(told(&towers, &[1, 2], None, 0), "1P1 2P2 0P1");
+    assert_eq!(told(&towers, &[2, 1], Some(2), 1), "1P1 0l2 2l2");
+    assert_eq!(told(&towers, &[1, 2], Some(2), 2), "1P1 2P2 0l1");
     assert_eq!(told(&towers, &[], Some(2), 3), "");
     towers.finish(ColorId(0), 0);
     towers.finish(ColorId(2), 3);

@@ -5,7 +5,7 @@ use fgm_core::Point2;
 use crate::{Piece, order::MEETS};
 
 /// Most changes tried for one group of pieces, whatever its size.
-const MOST_CHANGES: usize = 2_000_000;
+const MOST_CHANGES: usize = 1_000_000;
 /// Sweeps over the legs, at most; each is worth less than the one before.
 const SWEEPS: usize = 4;
 /// Shorter gains, mm, are rounding.
@@ -40,16 +40,21 @@ pub(crate) fn travel(legs: &[Leg], start: Point2) -> f64 {
 ///
 /// Tries about `per_leg` changes a leg in all, so that the cost is linear in the number of legs.
 pub(crate) fn improve(legs: &mut [Leg], start: Point2, per_leg: u32) {
-    let mut budget = legs.len().saturating_mul(per_leg as usize).min(MOST_CHANGES);
+    let count = legs.len();
+    let mut budget = count.saturating_mul(per_leg as usize).min(MOST_CHANGES);
+    if budget < count || count < 2 {
+        return;
+    }
+    let mut tour = Tour { gaps: vec![0.0; count + 1], legs, start };
+    tour.measure(0, count);
     for _ in 0..SWEEPS {
-        let mut tour = Tour { legs, start };
-        let mean = (0..tour.legs.len()).map(|i| tour.gap(i)).sum::<f64>() / tour.legs.len() as f64;
+        let mean = tour.gaps.iter().sum::<f64>() / count as f64;
         let mut changed = false;
-        for i in 0..tour.legs.len() {
-            if tour.gap(i) < mean.max(LEAST_GAIN) {
+        for i in 0..count {
+            if tour.gaps[i] < mean.max(LEAST_GAIN) {
                 continue;
             }
-            let Some(left) = budget.checked_sub(tour.legs.len()) else { return };
+            let Some(left) = budget.checked_sub(count) else { return };
             budget = left;
             if let Some(change) = tour.best_change(i) {
                 tour.make(change);
@@ -73,6 +78,8 @@ enum Change {
 struct Tour<'a> {
     legs: &'a mut [Leg],
     start: Point2,
+    /// The travels to each leg, and 0 after the last.
+    gaps: Vec<f64>,
 }
 
 impl Tour<'_> {
@@ -81,9 +88,11 @@ impl Tour<'_> {
         if i == 0 { self.start } else { self.legs[i - 1].exit }
     }
 
-    /// The travel to leg `i`; none after the last.
-    fn gap(&self, i: usize) -> f64 {
-        self.legs.get(i).map_or(0.0, |leg| self.before(i).distance(leg.enter))
+    /// Brings the travels from leg `from` to leg `to` up to date.
+    fn measure(&mut self, from: usize, to: usize) {
+        for i in from..=to.min(self.legs.len() - 1) {
+            self.gaps[i] = self.before(i).distance(self.legs[i].enter);
+        }
     }
 
     /// The travel from a point to leg `i`; none after the last.
@@ -92,9 +101,15 @@ impl Tour<'_> {
     }
 
     /// The change around the travel to leg `i` that gains most, if one gains.
+    ///
+    /// A change takes out travels of a known length and puts in two: where the first of these
+    /// alone is as long, the second is not looked at.
     fn best_change(&self, i: usize) -> Option<Change> {
         let (from, leg) = (self.before(i), self.legs[i]);
-        let gap = self.gap(i);
+        let gap = self.gaps[i];
+        let shorter = |a: Point2, b: Point2, than: f64| {
+            than > LEAST_GAIN && a.distance_squared(b) < than * than
+        };
         let mut best = (LEAST_GAIN, None);
         let mut offer = |gain: f64, change: Change| {
             if gain > best.0 {
@@ -102,25 +117,35 @@ impl Tour<'_> {
             }
         };
         // What taking leg `i` out alone would save.
-        let saved = gap + self.gap(i + 1) - self.to(from, i + 1);
-        for j in 0..self.legs.len() {
-            let (before, other) = (self.before(j), self.legs[j]);
-            let (gap_j, gap_after) = (self.gap(j), self.gap(j + 1));
+        let saved = gap + self.gaps[i + 1] - self.to(from, i + 1);
+        let mut before = self.start;
+        for (j, other) in self.legs.iter().enumerate() {
             if j >= i {
-                let new = from.distance(other.exit) + self.to(leg.enter, j + 1);
-                offer(gap + gap_after - new, Change::Reverse(i, j));
+                let old = gap + self.gaps[j + 1];
+                if shorter(from, other.exit, old) {
+                    let new = from.distance(other.exit) + self.to(leg.enter, j + 1);
+                    offer(old - new, Change::Reverse(i, j));
+                }
             } else {
-                let new = before.distance(self.legs[i - 1].exit) + other.enter.distance(leg.enter);
-                offer(gap_j + gap - new, Change::Reverse(j, i - 1));
+                let old = self.gaps[j] + gap;
+                if shorter(other.enter, leg.enter, old) {
+                    let new = before.distance(from) + other.enter.distance(leg.enter);
+                    offer(old - new, Change::Reverse(j, i - 1));
+                }
             }
             // Between the legs j - 1 and j.
             if j < i || j > i + 1 {
-                let to = if j < i { j } else { j - 1 };
-                let ahead = before.distance(leg.enter) + leg.exit.distance(other.enter);
-                let turned = before.distance(leg.exit) + leg.enter.distance(other.enter);
-                offer(saved + gap_j - ahead, Change::Move(i, to, false));
-                offer(saved + gap_j - turned, Change::Move(i, to, true));
+                let (old, to) = (saved + self.gaps[j], if j < i { j } else { j - 1 });
+                if shorter(before, leg.enter, old) {
+                    let new = before.distance(leg.enter) + leg.exit.distance(other.enter);
+                    offer(old - new, Change::Move(i, to, false));
+                }
+                if shorter(before, leg.exit, old) {
+                    let new = before.distance(leg.exit) + leg.enter.distance(other.enter);
+                    offer(old - new, Change::Move(i, to, true));
+                }
             }
+            before = other.exit;
         }
         best.1
     }
@@ -130,6 +155,7 @@ impl Tour<'_> {
             Change::Reverse(i, j) => {
                 self.legs[i..=j].reverse();
                 self.legs[i..=j].iter_mut().for_each(|leg| *leg = leg.reversed());
+                self.measure(i, j + 1);
             }
             Change::Move(i, to, turned) => {
                 if turned {
@@ -140,6 +166,7 @@ impl Tour<'_> {
                 } else {
                     self.legs[to..=i].rotate_right(1);
                 }
+                self.measure(i.min(to), i.max(to) + 1);
             }
         }
     }
@@ -199,10 +226,14 @@ mod tests {
             let mut legs: Vec<_> = legs.into_iter().enumerate().map(|(i, l)| leg(l, i)).collect();
             let was = travel(&legs, Point2::ZERO);
             let i = at.index(legs.len());
-            let mut tour = Tour { legs: &mut legs, start: Point2::ZERO };
+            let gaps = vec![0.0; legs.len() + 1];
+            let mut tour = Tour { legs: &mut legs, start: Point2::ZERO, gaps };
+            tour.measure(0, usize::MAX);
             if let Some(change) = tour.best_change(i) {
                 tour.make(change);
-                prop_assert!(travel(&legs, Point2::ZERO) < was);
+                let gaps: f64 = tour.gaps.iter().sum();
+                let is = travel(&legs, Point2::ZERO);
+                prop_assert!(is < was && (is - gaps).abs() < 1e-9);
             }
         }
     }
