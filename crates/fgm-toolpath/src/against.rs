@@ -4,24 +4,12 @@
 use fgm_core::{Polygon, Role, bead};
 
 use crate::{
-    GapOptions, InfillOptions, Inset, Path, Pattern, gap_fill, infill,
+    FaceFill, GapOptions, InfillOptions, Inset, Path, Pattern, gap_fill, infill,
     walls::{loops, peel::peel},
 };
 
 /// More loops than any face has: a backstop, 10 m of loops 0.1 mm apart.
 const MOST_LOOPS: usize = 100_000;
-
-/// What lies inside the first loop of a face.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
-pub enum FaceFill {
-    /// More loops, until nothing is left.
-    #[default]
-    Concentric,
-    /// Straight lines.
-    Rectilinear,
-}
 
 /// How a face is filled.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,13 @@ use crate::Side;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToolpathError {
-    /// No infill pattern has this name.
+    /// A fill that does not exist.
+    #[error("no fill `{name}`: concentric or rectilinear")]
+    UnknownFill {
+        /// What was asked for.
+        name: String,
+    },
+    /// An infill pattern that does not exist.
     #[error("no infill pattern `{name}`: rectilinear, grid, concentric or gyroid")]
     UnknownPattern {
         /// What was asked for.

@@ -61,6 +61,7 @@
 
 mod against;
 mod error;
+mod face_fill;
 mod gap;
 mod infill;
 mod inset;
@@ -81,8 +82,9 @@ mod travel;
 mod walls;
 mod zipper;
 
-pub use against::{AgainstOptions, FaceFill, against};
+pub use against::{AgainstOptions, against};
 pub use error::ToolpathError;
+pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};
 pub use infill::{Infill, InfillOptions, Pattern, infill};
 pub use inset::{ClipperInset, Inset};

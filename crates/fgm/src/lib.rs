@@ -1,1 +1,81 @@
-//! The slicer for graded materials as one library: from a design to G-code, in parallel, streaming, with progress and cancellation.
+//! The slicer for graded materials as one library: from a design to G-code.
+//!
+//! [`Slicer`] composes the crates below, plans layers in parallel and writes them as they come;
+//! it tells its progress and can be stopped. Each part can be used alone.
+//!
+//! | module | crate | what it does |
+//! |---|---|---|
+//! | [`core`] | fgm-core | points, rings, mixtures, motions, seam traits |
+//! | [`field`] | fgm-field | signed distances, expressions, volume fractions, `Design` |
+//! | [`design`] | fgm-design | `.vcad`, STL, OBJ, 3MF to `Design` |
+//! | [`contour`] | fgm-contour | outlines, isolines, sections of meshes |
+//! | [`arrange`] | fgm-arrange | faces of a layer |
+//! | [`palette`] | fgm-palette | mixture space divided into colours |
+//! | [`toolpath`] | fgm-toolpath | walls, infill, sectioning, towers, order |
+//! | [`gcode`] | fgm-gcode | machines, dialects, look-ahead, writer, reader |
+//!
+//! Settings are in [`Settings`], listed in [`SETTINGS`]; figures come back in [`Report`].
+//!
+//! ```
+//! use fgm::{Quiet, Settings, Slicer, design, gcode::Machine};
+//!
+//! let source = r#"fgrade(["z/4", "1 - z/4"], ["blue", "yellow"]) { cylinder(5, 4); }"#;
+//! let loaded = design::parse_vcad(source, ".".as_ref(), &Default::default())?;
+//! let machine = Machine::builtin("geeetech-mizar-m").ok_or("no such printer")?;
+//! let mut settings = Settings::default();
+//! settings.infill.density = 100.0;
+//!
+//! let mut gcode = Vec::new();
+//! let report = Slicer::new(&loaded.design, &machine, &settings).slice(&mut gcode, &Quiet)?;
+//! assert_eq!(report.layers, 20);
+//! assert!(String::from_utf8(gcode)?.contains(";LAYER_CHANGE"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod against;
+mod choice;
+mod colors;
+mod error;
+mod extent;
+mod graded;
+mod head;
+mod inspect;
+mod job;
+mod layers;
+mod machine;
+mod outlines;
+mod pipeline;
+mod placement;
+mod progress;
+mod report;
+mod samples;
+mod sectioned;
+mod settings;
+mod slicer;
+mod stages;
+mod stream;
+
+pub use choice::{ChoiceError, ColorCount, Strategy, Zipper};
+pub use error::SliceError;
+pub use inspect::{Inspection, MaterialRange, inspect};
+pub use layers::{Layer, Layers};
+pub use machine::machine;
+pub use progress::{Progress, Quiet};
+pub use report::{MaterialUse, Report};
+pub use settings::{
+    AgainstSettings, ContourSettings, InfillSettings, LayerSettings, LeadSettings, PaletteSettings,
+    PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings,
+    SliceSettings, WallSettings,
+};
+pub use slicer::Slicer;
+pub use stages::StageSeconds;
+
+pub use fgm_arrange as arrange;
+pub use fgm_contour as contour;
+pub use fgm_core as core;
+pub use fgm_design as design;
+pub use fgm_field as field;
+pub use fgm_gcode as gcode;
+pub use fgm_palette as palette;
+pub use fgm_toolpath as toolpath;
+pub use fgm_toolpath::{FaceFill, Pattern};

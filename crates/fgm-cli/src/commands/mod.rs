@@ -1,0 +1,7 @@
+//! One file a subcommand.
+
+pub(crate) mod completions;
+pub(crate) mod inspect;
+pub(crate) mod printers;
+pub(crate) mod settings;
+pub(crate) mod slice;

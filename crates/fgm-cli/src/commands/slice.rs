@@ -1,0 +1,245 @@
+use std::{
+    fs,
+    io::{self, IsTerminal, Write},
+    path::Path,
+    time::Instant,
+};
+
+use fgm::{
+    Report, Settings, Slicer,
+    design::{self, LoadOptions},
+    gcode::Machine,
+};
+use toml::{Table, Value};
+
+use crate::{
+    args::{DesignArguments, SettingSources, SliceArguments, Switch},
+    failure::Failure,
+    output::Output,
+    overrides,
+    progress::Terminal,
+    show,
+};
+
+/// Slices a design into a file of G-code.
+pub(crate) fn run(arguments: &SliceArguments) -> Result<(), Failure> {
+    let start = Instant::now();
+    let settings = settings(arguments)?;
+    let machine = machine(&arguments.printer, &settings)?;
+    let settings = with_lead_length(settings, arguments);
+    let progress = Terminal::new(arguments.quiet)?;
+
+    let loaded = load(&arguments.design)?;
+    for warning in &loaded.warnings {
+        fgm::Progress::warn(&progress, &warning.to_string());
+    }
+    let read_seconds = start.elapsed().as_secs_f64();
+
+    let mut output = Output::create(&arguments.output)?;
+    // The report's place is tried before the work, too, not found wanting after it.
+    let report_file = arguments.report.as_deref().map(Output::create).transpose()?;
+    let slicer = Slicer::new(&loaded.design, &machine, &settings)
+        .threads(arguments.threads.unwrap_or(0))
+        .head(vec![command_line()]);
+    let sliced = slicer.slice(&mut output, &progress);
+    progress.clear();
+    let mut report = sliced.map_err(|error| match error {
+        fgm::SliceError::Gcode(fgm::gcode::GcodeError::Io(error)) => {
+            Failure::write(&arguments.output, &error)
+        }
+        error => slice_failure(&error),
+    })?;
+    report.seconds.read += read_seconds;
+    report.seconds.total += read_seconds;
+    report.warnings.splice(0..0, loaded.warnings.iter().map(ToString::to_string));
+
+    output.finish()?;
+    if let (Some(mut file), Some(path)) = (report_file, &arguments.report) {
+        write_report(&report, &mut file).map_err(|e| Failure::write(path, &e))?;
+        file.finish()?;
+    }
+    if !arguments.quiet {
+        summary(&report, &arguments.output);
+    }
+    Ok(())
+}
+
+/// Reads a design with the options of the command line.
+pub(crate) fn load(arguments: &DesignArguments) -> Result<design::Loaded, Failure> {
+    let options = LoadOptions {
+        fractions: arguments.fractions.clone(),
+        size: arguments.size.map(Into::into),
+        ..LoadOptions::default()
+    };
+    design::load(&arguments.design, &options).map_err(|e| slice_failure(&e.into()))
+}
+
+/// What a slice's error is to the user: its status, and the line it speaks of.
+pub(crate) fn slice_failure(error: &fgm::SliceError) -> Failure {
+    let failure = match error {
+        fgm::SliceError::Cancelled => Failure::interrupted(),
+        error if error.is_bad_input() => Failure::usage(error.to_string()),
+        error => Failure::could_not(error.to_string()),
+    };
+    let fgm::SliceError::Design(error) = error else { return failure };
+    match (error.location(), error.source_text(), error.problem()) {
+        (Some(at), Some(text), Some(problem)) => {
+            failure.with_place(&at.file, text, at.span, &problem.to_string())
+        }
+        _ => failure,
+    }
+}
+
+/// The settings: defaults, below the file's, below the named options', below `--set`.
+fn settings(arguments: &SliceArguments) -> Result<Settings, Failure> {
+    let mut table = base(&arguments.settings)?;
+    let mut put = |key: [&str; 2], value: Option<Value>| {
+        if let Some(value) = value {
+            overrides::put(&mut table, &key, value);
+        }
+    };
+    let text = |value: Option<String>| value.map(Value::String);
+    let count =
+        |value: Option<usize>| value.map(|v| Value::Integer(v.min(i64::MAX as usize) as i64));
+    let a = arguments;
+    put(["slice", "strategy"], text(a.strategy.map(|s| s.to_string())));
+    put(["slice", "first_layer"], count(a.layers.map(|l| l.0)));
+    put(["slice", "last_layer"], count(a.layers.map(|l| l.1).filter(|l| *l != usize::MAX)));
+    put(["palette", "colors"], text(a.colors.map(|c| c.to_string())));
+    put(["palette", "zipper"], text(a.zipper.map(|z| z.to_string())));
+    put(["layer", "height"], a.layer_height.map(Value::Float));
+    put(["layer", "bead_width"], a.bead_width.map(Value::Float));
+    put(["walls", "count"], count(a.walls));
+    put(["infill", "density"], a.infill.map(Value::Float));
+    put(["infill", "pattern"], text(a.infill_pattern.map(|p| p.to_string())));
+    put(["skins", "top"], count(a.top));
+    put(["skins", "bottom"], count(a.bottom));
+    put(["against", "fill"], text(a.fill.map(|f| f.to_string())));
+    put(["purge", "enabled"], a.purge.map(|p| Value::Boolean(p == Switch::On)));
+    put(["lead", "volume"], a.dead_volume.map(Value::Float));
+    for text in &arguments.settings.set {
+        overrides::set(&mut table, text)?;
+    }
+    let settings: Settings =
+        table.try_into().map_err(|e| Failure::usage(format!("settings: {}", e.message())))?;
+    settings.check().map_err(|e| Failure::usage(e.to_string()))?;
+    Ok(settings)
+}
+
+/// What a settings file says, checked where it stands.
+fn base(sources: &SettingSources) -> Result<Table, Failure> {
+    match &sources.file {
+        None => Ok(Table::new()),
+        Some(path) => overrides::read(path, |text| {
+            toml::from_str::<Settings>(text)?;
+            toml::from_str::<Table>(text)
+        }),
+    }
+}
+
+/// `--lead` says the dead volume as a length of bead.
+fn with_lead_length(mut settings: Settings, arguments: &SliceArguments) -> Settings {
+    if let Some(length) = arguments.lead {
+        let layer = &settings.layer;
+        settings.lead.volume = Some(length * fgm::core::bead::area(layer.bead_width, layer.height));
+    }
+    settings
+}
+
+/// A built-in printer, or a profile in a file, with the settings' changes.
+pub(crate) fn machine(name: &str, settings: &Settings) -> Result<Machine, Failure> {
+    let looks_like_file = name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR);
+    let text = match Machine::builtin_toml(name) {
+        Some(text) => text.to_owned(),
+        None if looks_like_file => {
+            let path = Path::new(name);
+            let text = fs::read_to_string(path).map_err(|e| Failure::read(path, &e))?;
+            Machine::from_toml(&text)
+                .map_err(|e| Failure::at_line(path, &text, e.line, e.column, &e.message))?;
+            text
+        }
+        None => return Err(unknown_printer(name)),
+    };
+    fgm::machine(&text, &settings.machine)
+        .map_err(|e| Failure::usage(format!("printer {name}: {e}")))
+}
+
+/// No built-in printer has this name.
+pub(crate) fn unknown_printer(name: &str) -> Failure {
+    let known: Vec<_> = Machine::builtin_names().collect();
+    Failure::usage(format!(
+        "no printer is named `{name}`; built in are {}; or give a profile's file name ending in .toml",
+        known.join(", ")
+    ))
+}
+
+/// The command line as the user would type it again.
+fn command_line() -> String {
+    let quoted = std::env::args().map(|word| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%".contains(c);
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''").replace(['\n', '\r'], " "))
+        }
+    });
+    format!("command: {}", quoted.collect::<Vec<_>>().join(" "))
+}
+
+fn write_report(report: &Report, file: &mut Output) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *file, report).map_err(io::Error::from)?;
+    writeln!(file)
+}
+
+/// The figures in a few lines, on standard error: standard output may be the G-code.
+fn summary(report: &Report, output: &Path) {
+    let mut err = io::stderr().lock();
+    let dash = if io::stderr().is_terminal() { "–" } else { "-" };
+    let _ = writeln!(
+        err,
+        "{}: {} layers, {} colours, {} faces, {:.1} MB in {:.2} s",
+        output.display(),
+        report.layers,
+        report.colors,
+        report.faces,
+        report.bytes as f64 / 1e6,
+        report.seconds.total
+    );
+    for used in &report.materials {
+        let _ = writeln!(
+            err,
+            "  {dash} {}: {:.1} g, {:.2} m of filament",
+            used.name, used.mass_g, used.filament_m
+        );
+    }
+    let _ = writeln!(
+        err,
+        "  {dash} part {:.1} mm3 of {:.1} mm3, purge {:.1} mm3, {} colour changes, print time {}",
+        report.extruded_mm3 - report.purge_mm3,
+        report.model_mm3,
+        report.purge_mm3,
+        report.state_changes,
+        duration(report.print_time_s)
+    );
+}
+
+fn duration(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).round() as u64;
+    match (minutes / 60, minutes % 60) {
+        (0, 0) => format!("{seconds:.0} s"),
+        (0, minutes) => format!("{minutes} min"),
+        (hours, minutes) => format!("{hours} h {minutes} min"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_are_short() {
+        for (seconds, text) in [(12.0, "12 s"), (600.0, "10 min"), (7260.0, "2 h 1 min")] {
+            assert_eq!(duration(seconds), text);
+        }
+    }
+}

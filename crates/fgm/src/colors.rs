@@ -1,0 +1,180 @@
+//! The palette of a slice: how many colours, and how far they overlap.
+
+use fgm_core::{ColorId, Field, MAX_MATERIALS, Mixture, Point3, Role};
+use fgm_field::Design;
+use fgm_palette::Palette;
+use fgm_toolpath::Piece;
+
+use crate::{
+    choice::{Strategy, Zipper},
+    error::SliceError,
+    outlines::Outliner,
+    samples,
+    settings::Settings,
+};
+
+/// Colours of a palette where neither the settings nor the machine say.
+const DEFAULT_COLORS: usize = 16;
+/// The most colours that `auto` tries.
+const MOST_AUTO_COLORS: usize = 64;
+/// Step of the differences that measure a gradient, mm.
+const STEP: f64 = 1e-3;
+
+/// A palette of `count` colours for the design, with the zipper that the settings ask for.
+pub(crate) fn palette(
+    count: usize,
+    design: &Design,
+    settings: &Settings,
+    outliner: &Outliner<'_>,
+) -> Result<Palette, SliceError> {
+    let materials = design.materials.len();
+    // As many colours as three or more materials: one head a material, nothing mixed.
+    let palette = if materials > 2 && count == materials {
+        Palette::pure(materials)?
+    } else {
+        Palette::new(materials, count)?
+    };
+    let share = match settings.palette.zipper {
+        Zipper::Share(share) => share,
+        Zipper::Length(length) if length == 0.0 => 0.0,
+        Zipper::Length(length) => {
+            let gradients = gradients(design, outliner)?;
+            let mean = gradients.iter().sum::<f64>() / gradients.len().max(1) as f64;
+            if mean <= 0.0 || !mean.is_finite() {
+                return Err(SliceError::FlatZipper { length });
+            }
+            length * mean
+        }
+    };
+    if share == 0.0 || settings.slice.strategy == Strategy::Against {
+        return Ok(palette);
+    }
+    Ok(palette.with_overlap(share)?)
+}
+
+/// The colours of a palette.
+pub(crate) fn ids(palette: &Palette) -> impl Iterator<Item = ColorId> + use<> {
+    (0..palette.colors() as u16).map(ColorId)
+}
+
+/// Shown for materials that have no colour of their own, in their order.
+const SHOWN: [[u8; 3]; MAX_MATERIALS] = [
+    [30, 90, 200],
+    [250, 210, 40],
+    [210, 40, 50],
+    [40, 160, 80],
+    [150, 70, 180],
+    [250, 130, 30],
+    [60, 190, 200],
+    [120, 120, 120],
+];
+
+/// How a mixture is shown: its materials' colours, mixed by volume.
+pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
+    std::array::from_fn(|channel| {
+        let materials = design.materials.iter().zip(SHOWN).zip(mixture.fractions());
+        let parts = materials.map(|((material, other), fraction)| {
+            f64::from(material.color.unwrap_or(other)[channel]) * fraction
+        });
+        parts.sum::<f64>().round() as u8
+    })
+}
+
+/// The number of colours where none is asked for.
+pub(crate) fn default_count(machine_colors: Option<usize>, materials: usize) -> usize {
+    match machine_colors {
+        Some(heads) => heads,
+        None if materials > 2 => {
+            // The finest division of the simplex with at most as many cells as the default.
+            let divided = |count| Palette::new(materials, count).is_ok();
+            (1..=DEFAULT_COLORS).rev().find(|&count| divided(count)).unwrap_or(1)
+        }
+        None => DEFAULT_COLORS,
+    }
+}
+
+/// The most colours that keep the part printable.
+///
+/// Strategy 2: a band must be at least one bead wide (paper, section 3.5), so the steepest places
+/// of the part but a few decide. Strategy 1: at most `palette.auto_short_share` of the pieces may
+/// be shorter than `palette.short_piece` (paper, section 3.4.3); `pieces` makes the pieces of some
+/// layers with a palette of so many colours.
+pub(crate) fn auto_count(
+    design: &Design,
+    settings: &Settings,
+    outliner: &Outliner<'_>,
+    machine_colors: Option<usize>,
+    pieces: &dyn Fn(usize) -> Result<Vec<Piece>, SliceError>,
+) -> Result<usize, SliceError> {
+    let counts: Vec<usize> = (1..=machine_colors.unwrap_or(MOST_AUTO_COLORS))
+        .filter(|&n| Palette::new(design.materials.len(), n).is_ok())
+        .collect();
+    let fits = |count: usize| match settings.slice.strategy {
+        Strategy::Against => {
+            let mut steep = gradients(design, outliner)?;
+            steep.sort_unstable_by(f64::total_cmp);
+            let but_few = steep.get(steep.len().saturating_sub(1 + steep.len() / 20));
+            let band = 1.0 / bands_along_gradient(count, design.materials.len());
+            Ok(but_few.is_none_or(|g| g * settings.layer.bead_width <= band))
+        }
+        Strategy::Sectioned => {
+            let pieces = pieces(count)?;
+            Ok::<_, SliceError>(short_share(&pieces, settings) <= settings.palette.auto_short_share)
+        }
+    };
+    // Pieces only get shorter with more colours: halve the list. One colour always fits.
+    let (mut good, mut bad) = (0, counts.len());
+    while bad - good > 1 {
+        let middle = usize::midpoint(good, bad);
+        if fits(counts[middle])? { good = middle } else { bad = middle }
+    }
+    Ok(counts.get(good).copied().unwrap_or(1))
+}
+
+/// Bands that one material's fraction passes through from 0 to 1.
+fn bands_along_gradient(colors: usize, materials: usize) -> f64 {
+    if materials <= 2 { colors as f64 } else { (colors as f64).powf(1.0 / (materials - 1) as f64) }
+}
+
+/// The share of the part's sectioned pieces that are short.
+pub(crate) fn short_share(pieces: &[Piece], settings: &Settings) -> f64 {
+    let short = pieces.iter().filter(|piece| is_short(piece, settings)).count();
+    short as f64 / pieces.len().max(1) as f64
+}
+
+/// Whether a piece of the part is shorter than prints well.
+pub(crate) fn is_short(piece: &Piece, settings: &Settings) -> bool {
+    piece.role.is_part()
+        && piece.role != Role::GapFill
+        && piece.length() < settings.palette.short_piece
+}
+
+/// How steeply the material changes at points all over the part, in shares per mm.
+fn gradients(design: &Design, outliner: &Outliner<'_>) -> Result<Vec<f64>, SliceError> {
+    let steepest = |p: Point3| {
+        (0..design.materials.len())
+            .map(|m| gradient(design.fractions.fraction(m), p))
+            .fold(0.0, f64::max)
+    };
+    let points = samples::inside(outliner, &design.bounds)?;
+    Ok(points.into_iter().map(steepest).filter(|g| g.is_finite()).collect())
+}
+
+/// The slope of a fraction in a layer's plane.
+pub(crate) fn gradient(fraction: &dyn Field, p: Point3) -> f64 {
+    let along = |step: Point3| (fraction.eval(p + step) - fraction.eval(p - step)) / (2.0 * STEP);
+    along(Point3::X * STEP).hypot(along(Point3::Y * STEP))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn three_materials_take_the_finest_division_within_the_default() {
+        assert_eq!(default_count(None, 2), 16);
+        assert_eq!(default_count(Some(5), 2), 5);
+        assert_eq!(default_count(None, 3), 16);
+        assert!((1..=16).contains(&default_count(None, 4)));
+    }
+}

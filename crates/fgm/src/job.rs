@@ -1,0 +1,87 @@
+use fgm_contour::ContourOptions;
+use fgm_core::{Point2, Polygon};
+use fgm_field::Design;
+use fgm_palette::Palette;
+use fgm_toolpath::{ClipperInset, Piece, order, skirt};
+
+use crate::{
+    against,
+    choice::Strategy,
+    error::SliceError,
+    layers::{Layer, Layers},
+    outlines::OutlineWindow,
+    sectioned,
+    settings::Settings,
+    stages::{StageSeconds, timed},
+};
+
+/// What every layer of a slice is planned from; shared by the threads.
+pub(crate) struct Job<'a> {
+    pub(crate) settings: &'a Settings,
+    pub(crate) design: &'a Design,
+    pub(crate) palette: &'a Palette,
+    pub(crate) layers: Layers,
+    pub(crate) outlines: OutlineWindow<'a>,
+    /// How isolines of the material are traced.
+    pub(crate) isolines: ContourOptions,
+    pub(crate) inset: ClipperInset,
+    /// Whether the faces of one layer are filled in parallel: worth it only where there are fewer
+    /// layers than threads.
+    pub(crate) split_faces: bool,
+}
+
+/// A layer ready to be written.
+#[derive(Debug, Default)]
+pub(crate) struct PlannedLayer {
+    /// From 0 at the part's bottom.
+    pub(crate) index: usize,
+    /// In printing order, colour by colour.
+    pub(crate) pieces: Vec<Piece>,
+    /// Faces of one colour.
+    pub(crate) faces: usize,
+    /// Volume of the part in this layer, mm³.
+    pub(crate) model_mm3: f64,
+    pub(crate) seconds: StageSeconds,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Job<'_> {
+    /// Plans one layer, from its own inputs alone.
+    pub(crate) fn plan(&self, index: usize) -> Result<PlannedLayer, SliceError> {
+        self.plan_layer(&self.layers.get(index)).map_err(|e| e.in_layer(index))
+    }
+
+    fn plan_layer(&self, layer: &Layer) -> Result<PlannedLayer, SliceError> {
+        let mut seconds = StageSeconds::default();
+        let outline = timed(&mut seconds.contour, || self.outlines.get(layer))?;
+        let region = outline.region.as_slice();
+        let (pieces, faces) = match self.settings.slice.strategy {
+            Strategy::Sectioned => sectioned::pieces(self, layer, region, &mut seconds)?,
+            Strategy::Against => against::pieces(self, layer, region, &mut seconds)?,
+        };
+        let pieces = timed(&mut seconds.toolpath, || {
+            let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
+            let pieces = order(pieces, &self.palette.order(layer.index), start);
+            self.with_skirt(layer, region, pieces)
+        });
+        let area: f64 = region.iter().map(Polygon::area).sum();
+        Ok(PlannedLayer {
+            index: layer.index,
+            pieces,
+            faces,
+            model_mm3: area * layer.height,
+            seconds,
+            warnings: outline.warnings.clone(),
+        })
+    }
+
+    /// On the first layer, loops around the part in the colour that comes first.
+    fn with_skirt(&self, layer: &Layer, region: &[Polygon], pieces: Vec<Piece>) -> Vec<Piece> {
+        let first = pieces.first().map(|piece| piece.color);
+        let (true, Some(color)) = (layer.index == 0, first) else { return pieces };
+        let mut all = Vec::new();
+        skirt(region, color, &self.settings.skirt_options(), &mut all);
+        all.extend(pieces);
+        all
+    }
+}

@@ -1,0 +1,88 @@
+use fgm_field::Design;
+use fgm_gcode::{Machine, MachineKind};
+use serde::Serialize;
+
+use crate::stages::StageSeconds;
+
+/// The figures of a slice.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// Of this program.
+    pub version: &'static str,
+    /// The design's name.
+    pub design: String,
+    /// The printer's name.
+    pub printer: String,
+    /// How the part became paths.
+    pub strategy: String,
+    /// Layers printed.
+    pub layers: usize,
+    /// Colours of the palette.
+    pub colors: usize,
+    /// Faces of one colour, over all layers.
+    pub faces: usize,
+    /// Pieces of one colour.
+    pub pieces: usize,
+    /// Moves written, with and without extrusion.
+    pub moves: u64,
+    /// Laid down in all, the purge included, mm³.
+    pub extruded_mm3: f64,
+    /// Of the sliced layers: area times thickness, mm³.
+    pub model_mm3: f64,
+    /// Laid down in purge towers, mm³.
+    pub purge_mm3: f64,
+    /// Moved without extrusion, mm.
+    pub travel_mm: f64,
+    /// Commands that changed the colour.
+    pub state_changes: u64,
+    /// Pieces of one colour shorter than `palette.short_piece`.
+    pub short_pieces: usize,
+    /// Of the G-code.
+    pub bytes: u64,
+    /// How long the print takes, s.
+    pub print_time_s: f64,
+    /// Each input material: name, volume mm³, length of filament m, mass g.
+    pub materials: Vec<MaterialUse>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Where the time of the slice went, s.
+    pub seconds: StageSeconds,
+}
+
+/// How much of one input material a print takes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct MaterialUse {
+    /// The material's name.
+    pub name: String,
+    /// mm³.
+    pub volume_mm3: f64,
+    /// Metres of filament.
+    pub filament_m: f64,
+    /// Grams, by the profile's density.
+    pub mass_g: f64,
+}
+
+/// What each input of the machine takes.
+///
+/// A mixing machine's inputs are the design's materials; a tool changer's heads each carry a
+/// colour; a foaming filament is one.
+pub(crate) fn material_use(
+    design: &Design,
+    machine: &Machine,
+    filament_mm3: &[f64],
+) -> Vec<MaterialUse> {
+    let name = |input: usize| match machine.kind {
+        MachineKind::Mixing => design.materials.get(input).map(|m| m.name.clone()),
+        MachineKind::ToolChanger => Some(format!("head {input}")),
+        MachineKind::Foaming => Some("foaming filament".to_owned()),
+    };
+    let named = filament_mm3.iter().enumerate().filter_map(|(i, volume)| Some((name(i)?, *volume)));
+    named
+        .map(|(name, volume_mm3)| MaterialUse {
+            name,
+            volume_mm3,
+            filament_m: volume_mm3 / machine.filament_area() / 1000.0,
+            mass_g: volume_mm3 * machine.filament_density / 1000.0,
+        })
+        .collect()
+}

@@ -1,0 +1,99 @@
+//! Strategy 1: ordinary toolpaths, sectioned by the faces.
+
+use fgm_core::{Polygon, Role};
+use fgm_toolpath::{
+    InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, section, skins_with,
+    walls,
+};
+
+use crate::{
+    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, stages::StageSeconds,
+    stages::timed,
+};
+
+/// The pieces of a layer, before ordering.
+pub(crate) fn pieces(
+    job: &Job<'_>,
+    layer: &Layer,
+    region: &[Polygon],
+    seconds: &mut StageSeconds,
+) -> Result<(Vec<Piece>, usize), SliceError> {
+    let graded = GradedLayer::new(job, layer, region, seconds)?;
+    let neighbours = Neighbours::of(job, layer, seconds)?;
+    timed(&mut seconds.toolpath, || {
+        let paths = paths(job, layer, region, &neighbours);
+        let mut pieces = Vec::new();
+        // The layer's index makes a zipper's teeth alternate upwards, too.
+        let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
+        section(&paths, &graded, &options, &mut pieces);
+        Ok((pieces, graded.count()))
+    })
+}
+
+/// The outlines that skins look at; none past the part's ends.
+struct Neighbours {
+    above: Vec<crate::outlines::SharedOutline>,
+    below: Vec<crate::outlines::SharedOutline>,
+}
+
+impl Neighbours {
+    fn of(job: &Job<'_>, layer: &Layer, seconds: &mut StageSeconds) -> Result<Self, SliceError> {
+        if job.settings.infill.density >= 100.0 {
+            return Ok(Self { above: Vec::new(), below: Vec::new() });
+        }
+        let get = |index: Option<usize>| match index {
+            Some(index) if index < job.layers.count() => job.outlines.get(&job.layers.get(index)),
+            _ => Ok(crate::outlines::SharedOutline::default()),
+        };
+        timed(&mut seconds.contour, || {
+            let skins = &job.settings.skins;
+            let above = (1..=skins.top).map(|k| get(layer.index.checked_add(k)));
+            let below = (1..=skins.bottom).map(|k| get(layer.index.checked_sub(k)));
+            Ok(Self {
+                above: above.collect::<Result<_, _>>()?,
+                below: below.collect::<Result<_, _>>()?,
+            })
+        })
+    }
+}
+
+fn paths(job: &Job<'_>, layer: &Layer, region: &[Polygon], neighbours: &Neighbours) -> Vec<Path> {
+    let settings = job.settings;
+    let width = settings.layer.bead_width;
+    let options = WallOptions::new(settings.walls.count, width, layer.height);
+    let walls = walls(region, &options, &job.inset);
+    let mut paths = walls.paths;
+    let fill = |region: &[Polygon], density: f64, pattern: Pattern, role: Role| {
+        let options = InfillOptions {
+            pattern,
+            density,
+            angle: settings.infill.angle.to_radians(),
+            width,
+            height: layer.height,
+            z: layer.cut,
+            layer: layer.index,
+            role,
+        };
+        infill(region, &options, &job.inset)
+    };
+    let density = settings.infill.density / 100.0;
+    let solid = |region: &[Polygon], role: Role| fill(region, 1.0, Pattern::Rectilinear, role);
+    if density >= 1.0 {
+        let role = match layer.index {
+            0 => Role::BottomSkin,
+            i if i + 1 == job.layers.count() => Role::TopSkin,
+            _ => Role::SolidInfill,
+        };
+        paths.extend(fill(&walls.inside, 1.0, settings.infill.pattern, role));
+        return paths;
+    }
+    let above: Vec<&[Polygon]> = neighbours.above.iter().map(|o| o.region.as_slice()).collect();
+    let below: Vec<&[Polygon]> = neighbours.below.iter().map(|o| o.region.as_slice()).collect();
+    let skins = skins_with(&walls.inside, &above, &below, width, &job.inset);
+    paths.extend(solid(&skins.top, Role::TopSkin));
+    paths.extend(solid(&skins.bottom, Role::BottomSkin));
+    if density > 0.0 {
+        paths.extend(fill(&skins.sparse, density, settings.infill.pattern, Role::Infill));
+    }
+    paths
+}

@@ -1,0 +1,305 @@
+//! Every setting of a slice, with its default, unit and meaning in one table.
+//!
+//! The [`settings!`] table below is the only place a setting is written: the structs, their
+//! defaults, and the list that `fgm settings` prints all come from it. What belongs to a machine
+//! (speeds, retraction, temperatures) is in its profile, not here.
+
+use serde::{Deserialize, Serialize};
+
+use crate::choice::{ColorCount, Strategy, Zipper};
+use fgm_contour::ContourOptions;
+use fgm_toolpath::{FaceFill, Pattern, SkirtOptions};
+
+/// One line of the list of settings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SettingInfo {
+    /// The section of the settings file.
+    pub section: &'static str,
+    /// The key in its section.
+    pub key: &'static str,
+    /// The unit, or the kind of value.
+    pub unit: &'static str,
+    /// The default, as the settings file would say it, or where it comes from.
+    pub default: &'static str,
+    /// What it does.
+    pub help: &'static str,
+}
+
+macro_rules! settings {
+    ($(
+        #[doc = $section_doc:literal]
+        $section:ident: $Section:ident {
+            $( #[doc = $doc:literal] $key:ident: $type:ty = $default:expr, $shown:literal, $unit:literal; )*
+        }
+    )*) => {
+        /// All settings of a slice. Every key may be left out of a file; unknown keys are errors.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields)]
+        pub struct Settings {
+            $( #[doc = $section_doc] pub $section: $Section, )*
+            /// Changes to the printer's profile, laid over it.
+            #[serde(skip_serializing_if = "toml::Table::is_empty")]
+            pub machine: toml::Table,
+        }
+
+        $(
+            #[doc = $section_doc]
+            #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+            #[serde(default, deny_unknown_fields)]
+            pub struct $Section {
+                $( #[doc = $doc] pub $key: $type, )*
+            }
+
+            impl Default for $Section {
+                fn default() -> Self {
+                    Self { $( $key: $default, )* }
+                }
+            }
+        )*
+
+        /// The settings in the order of the file, for listing.
+        pub const SETTINGS: &[SettingInfo] = &[$($(
+            SettingInfo {
+                section: stringify!($section),
+                key: stringify!($key),
+                unit: $unit,
+                default: $shown,
+                help: $doc,
+            },
+        )*)*];
+    };
+}
+
+settings! {
+    #[doc = "How the part becomes paths."]
+    slice: SliceSettings {
+        #[doc = "Ordinary toolpaths sectioned by colour, or faces filled against the gradient."]
+        strategy: Strategy = Strategy::Sectioned, "\"sectioned\"", "sectioned | against";
+        #[doc = "First layer to print, counted from 1."]
+        first_layer: usize = 1, "1", "layer";
+        #[doc = "Last layer to print; the top one where left out."]
+        last_layer: Option<usize> = None, "the top", "layer";
+    }
+    #[doc = "Layers and beads."]
+    layer: LayerSettings {
+        #[doc = "Thickness of a layer."]
+        height: f64 = 0.2, "0.2", "mm";
+        #[doc = "Thickness of the first layer; as the others where left out."]
+        first_height: Option<f64> = None, "layer.height", "mm";
+        #[doc = "Width of a bead."]
+        bead_width: f64 = 0.4, "0.4", "mm";
+    }
+    #[doc = "How the surface and the gradient are traced."]
+    contour: ContourSettings {
+        #[doc = "Side of the finest cell that a field is sampled in: features below two cells may be lost."]
+        cell: f64 = 0.5, "0.5", "mm";
+        #[doc = "How far a simplified contour may lie from the true one."]
+        tolerance: f64 = 0.01, "0.01", "mm";
+        #[doc = "How far a vertex may lie from the true contour before simplification."]
+        root: f64 = 1e-6, "1e-6", "mm";
+    }
+    #[doc = "The colours that the gradient is printed in."]
+    palette: PaletteSettings {
+        #[doc = "How many colours; auto takes the most that keeps pieces printable."]
+        colors: Option<ColorCount> = None, "16, or the heads of a tool changer", "count | \"auto\"";
+        #[doc = "Overlap of neighbouring colours, in which their paths alternate."]
+        zipper: Zipper = Zipper::NONE, "0", "share of the gradient | \"15mm\"";
+        #[doc = "Share of pieces that may be shorter than short_piece when colors is auto."]
+        auto_short_share: f64 = 0.1, "0.1", "share";
+        #[doc = "Length below which a piece prints badly."]
+        short_piece: f64 = 5.0, "5", "mm";
+    }
+    #[doc = "Walls, strategy sectioned."]
+    walls: WallSettings {
+        #[doc = "How many walls."]
+        count: usize = 3, "3", "count";
+    }
+    #[doc = "Solid layers below and above, strategy sectioned."]
+    skins: SkinSettings {
+        #[doc = "Solid layers under a top."]
+        top: usize = 4, "4", "layers";
+        #[doc = "Solid layers over a bottom."]
+        bottom: usize = 4, "4", "layers";
+    }
+    #[doc = "Filling between the walls, strategy sectioned."]
+    infill: InfillSettings {
+        #[doc = "How much of the inside is filled."]
+        density: f64 = 15.0, "15", "percent";
+        #[doc = "How the lines run."]
+        pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | grid | concentric | gyroid";
+        #[doc = "Direction of the lines on even layers; odd layers are turned by a right angle."]
+        angle: f64 = 45.0, "45", "degrees";
+    }
+    #[doc = "Filling of faces, strategy against."]
+    against: AgainstSettings {
+        #[doc = "How the lines run in a face."]
+        fill: FaceFill = FaceFill::Concentric, "\"concentric\"", "concentric | rectilinear";
+        #[doc = "Narrowest bead, where the middle of a face needs one."]
+        min_width: Option<f64> = None, "0.6 bead widths", "mm";
+        #[doc = "Widest bead, where the middle of a face needs one."]
+        max_width: Option<f64> = None, "1.6 bead widths", "mm";
+    }
+    #[doc = "Where the old colour goes, strategy sectioned."]
+    purge: PurgeSettings {
+        #[doc = "Whether to print purge towers."]
+        enabled: Option<bool> = None, "on for mixing and foaming", "true | false";
+        #[doc = "Least volume of a purge; the dead volume where left out."]
+        volume: Option<f64> = None, "the dead volume", "mm3";
+        #[doc = "Change of mixture at or below which no purge is printed."]
+        threshold: f64 = 0.0, "0", "share";
+        #[doc = "Room between the part and the towers."]
+        clearance: f64 = 5.0, "5", "mm";
+    }
+    #[doc = "Look-ahead: how far commands go out before their boundary."]
+    lead: LeadSettings {
+        #[doc = "Volume between the mixing and the nozzle's tip."]
+        volume: Option<f64> = None, "the printer's", "mm3";
+    }
+    #[doc = "Loops around the part on the first layer."]
+    skirt: SkirtSettings {
+        #[doc = "How many loops."]
+        loops: usize = 0, "0", "count";
+        #[doc = "Room between the part and the loops."]
+        gap: f64 = 5.0, "5", "mm";
+    }
+}
+
+impl Settings {
+    /// Thickness of the first layer, mm.
+    pub fn first_height(&self) -> f64 {
+        self.layer.first_height.unwrap_or(self.layer.height)
+    }
+
+    /// How the part's outlines are traced.
+    pub(crate) fn outline_options(&self) -> ContourOptions {
+        ContourOptions { sharp: true, ..self.isoline_options() }
+    }
+
+    /// How the palette's boundaries are traced. The material need not be a number outside the
+    /// part.
+    pub(crate) fn isoline_options(&self) -> ContourOptions {
+        ContourOptions {
+            cell: self.contour.cell,
+            root_tolerance: self.contour.root,
+            simplify: self.contour.tolerance,
+            sharp: false,
+            skip_nan: true,
+            ..ContourOptions::default()
+        }
+    }
+
+    /// The narrowest and widest bead of fills against the gradient, mm.
+    pub(crate) fn bead_widths(&self) -> (f64, f64) {
+        let width = self.layer.bead_width;
+        let AgainstSettings { min_width, max_width, .. } = self.against;
+        (min_width.unwrap_or(0.6 * width), max_width.unwrap_or(1.6 * width))
+    }
+
+    /// The loops around the part.
+    pub(crate) fn skirt_options(&self) -> SkirtOptions {
+        SkirtOptions {
+            loops: u32::try_from(self.skirt.loops).unwrap_or(u32::MAX),
+            distance: self.skirt.gap,
+            width: self.layer.bead_width,
+        }
+    }
+
+    /// How far the skirt reaches beyond the part, mm.
+    pub(crate) fn skirt_reach(&self) -> f64 {
+        match self.skirt.loops {
+            0 => 0.0,
+            loops => self.skirt.gap + loops as f64 * self.layer.bead_width,
+        }
+    }
+
+    /// Checks what types cannot: that lengths are positive, shares are shares.
+    ///
+    /// # Errors
+    /// The first setting out of its range, with the range.
+    pub fn check(&self) -> Result<(), SettingError> {
+        let within = |key, value: f64, range: std::ops::RangeInclusive<f64>, wanted| {
+            if range.contains(&value) { Ok(()) } else { Err(SettingError { key, value, wanted }) }
+        };
+        let length = |key, value| within(key, value, 0.001..=100.0, "0.001 to 100 mm");
+        length("layer.height", self.layer.height)?;
+        length("layer.first_height", self.first_height())?;
+        length("layer.bead_width", self.layer.bead_width)?;
+        within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
+        within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
+        within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
+        within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
+        within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;
+        within("palette.auto_short_share", self.palette.auto_short_share, 0.0..=1.0, "0 to 1")?;
+        within("palette.short_piece", self.palette.short_piece, 0.0..=1e6, "0 or more")?;
+        let (least, most) = self.bead_widths();
+        within("against.min_width", least, f64::MIN_POSITIVE..=f64::MAX, "above 0 mm")?;
+        within("against.max_width", most, least..=f64::MAX, "at least against.min_width")?;
+        within("purge.volume", self.purge.volume.unwrap_or(0.0), 0.0..=1e5, "0 to 100000 mm3")?;
+        within("purge.threshold", self.purge.threshold, 0.0..=1.0, "0 to 1")?;
+        within("purge.clearance", self.purge.clearance, 0.0..=1e3, "0 to 1000 mm")?;
+        within("lead.volume", self.lead.volume.unwrap_or(0.0), 0.0..=1e6, "0 to 1000000 mm3")?;
+        within("skirt.gap", self.skirt.gap, 0.0..=1e3, "0 to 1000 mm")?;
+        let count = |key, value: usize, most: usize, wanted| {
+            within(key, value as f64, 0.0..=most as f64, wanted)
+        };
+        count("walls.count", self.walls.count, 10_000, "0 to 10000")?;
+        count("skins.top", self.skins.top, 10_000, "0 to 10000 layers")?;
+        count("skins.bottom", self.skins.bottom, 10_000, "0 to 10000 layers")?;
+        count("skirt.loops", self.skirt.loops, 100, "0 to 100")?;
+        let first = self.slice.first_layer as f64;
+        within("slice.first_layer", first, 1.0..=1e9, "1 or more")?;
+        let last = self.slice.last_layer.map_or(1e9, |l| l as f64);
+        within("slice.last_layer", last, first..=1e9, "at least slice.first_layer")
+    }
+}
+
+/// A setting out of its range.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{key} is {value}, where {wanted} is possible")]
+pub struct SettingError {
+    /// `section.key`.
+    pub key: &'static str,
+    /// What it is.
+    pub value: f64,
+    /// The range.
+    pub wanted: &'static str,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shown_defaults_are_the_defaults() {
+        let defaults = toml::Table::try_from(Settings::default()).unwrap();
+        for info in SETTINGS {
+            match defaults[info.section].get(info.key) {
+                Some(value) => {
+                    let shown: toml::Table = format!("v = {}", info.default).parse().unwrap();
+                    let same = shown["v"] == *value
+                        || shown["v"].as_integer().map(|i| i as f64) == value.as_float();
+                    assert!(
+                        same,
+                        "{}.{}: {} shown, {value} true",
+                        info.section, info.key, info.default
+                    );
+                }
+                None => assert!(!info.default.is_empty(), "{}.{}", info.section, info.key),
+            }
+        }
+    }
+
+    #[test]
+    fn out_of_range_is_named() {
+        let mut settings = Settings::default();
+        assert_eq!(settings.check(), Ok(()));
+        settings.layer.height = f64::NAN;
+        assert_eq!(settings.check().unwrap_err().key, "layer.height");
+        settings.layer.height = 0.2;
+        settings.infill.density = 101.0;
+        assert_eq!(
+            settings.check().unwrap_err().to_string(),
+            "infill.density is 101, where 0 to 100 percent is possible"
+        );
+    }
+}

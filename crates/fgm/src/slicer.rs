@@ -1,0 +1,334 @@
+use std::{io::Write, ops::Range, time::Instant};
+
+use fgm_core::{Bounds2, Bounds3, Interval, Mixture, Point3};
+use fgm_field::Design;
+use fgm_gcode::{Lead, Machine, MachineKind, Summary, Writer, WriterOptions};
+use fgm_palette::Palette;
+use fgm_toolpath::{ClipperInset, TowerOptions, Towers};
+
+use crate::{
+    choice::{ColorCount, Strategy, Zipper},
+    colors,
+    error::SliceError,
+    extent, head,
+    job::{Job, PlannedLayer},
+    layers::Layers,
+    outlines::{OutlineWindow, Outliner},
+    pipeline, placement,
+    progress::Progress,
+    report::{Report, material_use},
+    settings::Settings,
+    stages::{StageSeconds, timed},
+    stream::Stream,
+};
+
+/// Slices a design for a machine.
+///
+/// ```
+/// use fgm::{Quiet, Settings, Slicer, design, gcode::Machine};
+///
+/// let source = "fgrade([\"x/10 + 0.5\", \"0.5 - x/10\"], [\"a\", \"b\"]) { cube(10); }";
+/// let loaded = design::parse_vcad(source, ".".as_ref(), &Default::default())?;
+/// let machine = Machine::builtin("generic-mixing").ok_or("no such printer")?;
+/// let settings = Settings::default();
+///
+/// let mut gcode = Vec::new();
+/// let report = Slicer::new(&loaded.design, &machine, &settings).slice(&mut gcode, &Quiet)?;
+/// assert_eq!(report.layers, 50);
+/// assert!((report.model_mm3 - 1000.0).abs() < 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Slicer<'a> {
+    design: &'a Design,
+    machine: &'a Machine,
+    settings: &'a Settings,
+    threads: usize,
+    head: Vec<String>,
+}
+
+/// Layers in flight for each thread: enough that none waits for the writing.
+const AHEAD_PER_THREAD: usize = 2;
+
+/// Layers whose pieces are made to choose the number of colours.
+const AUTO_LAYERS: usize = 5;
+
+impl<'a> Slicer<'a> {
+    /// A slicer with all threads. The settings' changes to the machine are already in `machine`
+    /// (see [`crate::machine`]).
+    pub fn new(design: &'a Design, machine: &'a Machine, settings: &'a Settings) -> Self {
+        Self { design, machine, settings, threads: 0, head: Vec::new() }
+    }
+
+    /// How many threads to plan layers on; 0 for all cores. The output does not depend on it.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// Comment lines for the head of the file, before the settings.
+    #[must_use]
+    pub fn head(mut self, lines: Vec<String>) -> Self {
+        self.head = lines;
+        self
+    }
+
+    /// Writes the G-code and returns the figures.
+    ///
+    /// # Errors
+    /// [`SliceError`]; `out` then holds a part of the file, which is the caller's to drop.
+    pub fn slice(
+        &self,
+        out: &mut dyn Write,
+        progress: &dyn Progress,
+    ) -> Result<Report, SliceError> {
+        let start = Instant::now();
+        let mut seconds = StageSeconds::default();
+        self.settings.check()?;
+        self.check_inputs()?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(|e| SliceError::Threads { message: e.to_string() })?;
+
+        let outliner = timed(&mut seconds.read, || {
+            Outliner::new(self.design, self.settings.outline_options())
+        })?;
+        let mut warnings = self.warnings(&outliner);
+        warnings.iter().for_each(|w| progress.warn(w));
+        let (heights, layers) = self.layers(&outliner)?;
+        let range = self.range(&layers)?;
+        let part = Bounds3 {
+            min: self.design.bounds.min.with_z(heights.lo),
+            max: self.design.bounds.max.with_z(heights.hi),
+        };
+        let bed = self.machine.bed.bounds();
+        placement::check(&part, &bed, &self.machine.name)?;
+        let threads = pool.current_num_threads();
+        let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
+        let job = self.job(&outliner, &palette, layers, range.len(), threads);
+
+        let offset = self.machine.bed.centering(&part);
+        let mut stream = self.stream(&palette, layers, &part, offset, range.clone(), out)?;
+        let mut report = Report::default();
+        let (mut done, total) = (0, range.len());
+        progress.advance(done, total);
+        let make = |index| job.plan(index);
+        pipeline::ordered(&pool, range, AHEAD_PER_THREAD * threads, &make, |planned| {
+            if progress.cancelled() {
+                return Err(SliceError::Cancelled);
+            }
+            let planned: PlannedLayer = planned?;
+            for warning in &planned.warnings {
+                let warning = format!("layer {}: {warning}", planned.index + 1);
+                progress.warn(&warning);
+                warnings.push(warning);
+            }
+            self.count(&planned, &mut report, &mut seconds);
+            timed(&mut seconds.write, || stream.push(planned))?;
+            done += 1;
+            progress.advance(done, total);
+            Ok(())
+        })?;
+        let summary = timed(&mut seconds.write, || stream.finish())?;
+        if report.pieces == 0 {
+            return Err(SliceError::NothingToPrint {
+                reason: "no bead fits into any layer: the part is thinner than a bead".into(),
+            });
+        }
+        seconds.total = start.elapsed().as_secs_f64();
+        self.fill(&mut report, &summary, palette.colors(), total);
+        report.warnings = warnings;
+        report.seconds = seconds;
+        Ok(report)
+    }
+
+    /// What the user should know before the first layer.
+    fn warnings(&self, outliner: &Outliner<'_>) -> Vec<String> {
+        let mut warnings = outliner.warnings();
+        let zipper = self.settings.palette.zipper != Zipper::NONE;
+        if zipper && self.settings.slice.strategy == Strategy::Against {
+            warnings.push(
+                "the zipper is for strategy sectioned; against the gradient it is left out".into(),
+            );
+        }
+        warnings
+    }
+
+    fn check_inputs(&self) -> Result<(), SliceError> {
+        let (materials, inputs) = (self.design.materials.len(), self.machine.inputs());
+        // A tool changer's heads carry colours that are mixed beforehand.
+        if self.machine.kind != MachineKind::ToolChanger && materials > inputs {
+            let printer = self.machine.name.clone();
+            return Err(SliceError::Inputs { materials, inputs, printer });
+        }
+        Ok(())
+    }
+
+    fn layers(&self, outliner: &Outliner<'_>) -> Result<(Interval, Layers), SliceError> {
+        let height = self.settings.layer.height;
+        let heights = extent::heights(outliner, &self.design.bounds, height)?
+            .ok_or_else(|| SliceError::NothingToPrint { reason: "the design is empty".into() })?;
+        let layers = Layers::new(heights, self.settings.first_height(), height);
+        if layers.count() == 0 {
+            let reason = format!(
+                "the part is {:.4} mm high, less than half a layer of {height} mm",
+                heights.width()
+            );
+            return Err(SliceError::NothingToPrint { reason });
+        }
+        Ok((heights, layers))
+    }
+
+    /// The layers asked for, as indices from 0.
+    fn range(&self, layers: &Layers) -> Result<Range<usize>, SliceError> {
+        let first = self.settings.slice.first_layer - 1;
+        let last = self.settings.slice.last_layer.unwrap_or(usize::MAX).min(layers.count());
+        if first < last {
+            return Ok(first..last);
+        }
+        Err(SliceError::NothingToPrint {
+            reason: format!("layers from {} on, of a part with {}", first + 1, layers.count()),
+        })
+    }
+
+    fn palette(&self, outliner: &Outliner<'_>, layers: Layers) -> Result<Palette, SliceError> {
+        let (design, settings) = (self.design, self.settings);
+        let count = match settings.palette.colors {
+            Some(ColorCount::Count(count)) => count,
+            None => colors::default_count(self.machine.max_colors(), design.materials.len()),
+            Some(ColorCount::Auto) => {
+                let most = self.machine.max_colors();
+                colors::auto_count(design, settings, outliner, most, &|count| {
+                    let palette = colors::palette(count, design, settings, outliner)?;
+                    let job = self.job(outliner, &palette, layers, AUTO_LAYERS, 1);
+                    let mut pieces = Vec::new();
+                    for index in spread(layers.count(), AUTO_LAYERS) {
+                        pieces.extend(job.plan(index)?.pieces);
+                    }
+                    Ok(pieces)
+                })?
+            }
+        };
+        colors::palette(count, design, settings, outliner)
+    }
+
+    fn job<'j>(
+        &'j self,
+        outliner: &'j Outliner<'j>,
+        palette: &'j Palette,
+        layers: Layers,
+        in_range: usize,
+        threads: usize,
+    ) -> Job<'j> {
+        let skins = &self.settings.skins;
+        let span = AHEAD_PER_THREAD * threads + skins.top + skins.bottom + 1;
+        Job {
+            settings: self.settings,
+            design: self.design,
+            palette,
+            layers,
+            outlines: OutlineWindow::new(outliner, span.min(layers.count())),
+            isolines: self.settings.isoline_options(),
+            inset: ClipperInset::default(),
+            split_faces: in_range < 2 * threads,
+        }
+    }
+
+    fn stream<'s>(
+        &self,
+        palette: &'s Palette,
+        layers: Layers,
+        part: &Bounds3,
+        offset: Point3,
+        range: Range<usize>,
+        out: &'s mut dyn Write,
+    ) -> Result<Stream<'s>, SliceError> {
+        let mixtures: Vec<Mixture> = colors::ids(palette).map(|c| palette.state(c)).collect();
+        let states = self.machine.states(&mixtures)?;
+        let mut comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION"))];
+        comments.extend(self.head.iter().cloned());
+        comments.extend(head::lines(self.settings, self.machine));
+        let options = WriterOptions {
+            offset,
+            comments,
+            colors: mixtures.iter().map(|m| colors::shown(self.design, m)).collect(),
+            total_layers: u32::try_from(range.len()).ok(),
+            ..WriterOptions::of(self.machine)
+        };
+        let lead = self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume());
+        Ok(Stream {
+            lead: Lead::with_volume(self.machine, lead),
+            writer: Writer::new(out, self.machine, &states, &options)?,
+            towers: self.towers(palette.colors(), lead, part, offset)?,
+            palette,
+            layers,
+            threshold: self.settings.purge.threshold,
+            color: None,
+            count: 0,
+        })
+    }
+
+    /// The purge towers, where they are wanted and there is something to purge.
+    fn towers(
+        &self,
+        colors: usize,
+        dead_volume: f64,
+        part: &Bounds3,
+        offset: Point3,
+    ) -> Result<Option<Towers>, SliceError> {
+        let purge = &self.settings.purge;
+        let usual = self.machine.kind != MachineKind::ToolChanger;
+        let wanted = self.settings.slice.strategy == Strategy::Sectioned
+            && purge.enabled.unwrap_or(usual)
+            && colors > 1;
+        let volume = purge.volume.unwrap_or(dead_volume);
+        if !wanted || volume <= 0.0 {
+            return Ok(None);
+        }
+        let bed = self.machine.bed.bounds().xy();
+        let bed = Bounds2::new(bed.min - offset.truncate(), bed.max - offset.truncate());
+        let options = TowerOptions {
+            volume,
+            clearance: purge.clearance,
+            width: self.settings.layer.bead_width,
+            height: self.settings.layer.height,
+            ..TowerOptions::default()
+        };
+        let part = part.xy().grown(self.settings.skirt_reach());
+        Ok(Some(Towers::place(&part, &bed, colors, &options)?))
+    }
+
+    fn count(&self, planned: &PlannedLayer, report: &mut Report, seconds: &mut StageSeconds) {
+        seconds.add(&planned.seconds);
+        report.faces += planned.faces;
+        report.model_mm3 += planned.model_mm3;
+        report.pieces += planned.pieces.len();
+        report.short_pieces +=
+            planned.pieces.iter().filter(|p| colors::is_short(p, self.settings)).count();
+    }
+
+    fn fill(&self, report: &mut Report, summary: &Summary, colors: usize, layers: usize) {
+        report.version = env!("CARGO_PKG_VERSION");
+        report.design.clone_from(&self.design.name);
+        report.printer.clone_from(&self.machine.name);
+        report.strategy = self.settings.slice.strategy.to_string();
+        report.layers = layers;
+        report.colors = colors;
+        report.moves = summary.moves;
+        report.extruded_mm3 = summary.extruded_mm3;
+        report.purge_mm3 = summary.purge_mm3;
+        report.travel_mm = summary.travel_mm;
+        report.state_changes = summary.state_changes;
+        report.bytes = summary.bytes;
+        report.print_time_s = summary.print_time_s;
+        report.materials = material_use(self.design, self.machine, &summary.filament_mm3);
+    }
+}
+
+/// `count` indices spread evenly below `of`.
+fn spread(of: usize, count: usize) -> impl Iterator<Item = usize> {
+    let count = count.min(of);
+    (0..count).map(move |i| (2 * i + 1) * of / (2 * count))
+}
