@@ -48,7 +48,9 @@ impl Contacts {
         let points = &slots.points[..];
         tree.self_join(|a, b| {
             let (a, b) = (&slots.pieces[a as usize], &slots.pieces[b as usize]);
-            for_pairs((points, a), (points, b), |i, j| self.pair(points, i, j));
+            if !a.goes_on_into(b) {
+                for_pairs((points, a), (points, b), |i, j| self.pair(points, i, j));
+            }
         });
     }
 

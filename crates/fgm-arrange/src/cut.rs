@@ -131,12 +131,12 @@ impl Found {
     fn meet(&mut self, points: &[Point2], i: usize, topology: &Topology, j: usize, edge: u32) {
         let (a, b) = (points[i], points[i + 1]);
         let (c, d) = (topology.points[j], topology.points[j + 1]);
-        let (s, t) = (orient_any(c, d, a), orient_any(c, d, b));
-        if (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0) || a == b {
+        let (u, v) = (orient_any(a, b, c), orient_any(a, b, d));
+        if (u > 0.0 && v > 0.0) || (u < 0.0 && v < 0.0) || a == b {
             return;
         }
-        let (u, v) = (orient_any(a, b, c), orient_any(a, b, d));
-        if (u > 0.0 && v > 0.0) || (u < 0.0 && v < 0.0) {
+        let (s, t) = (orient_any(c, d, a), orient_any(c, d, b));
+        if (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0) {
             return;
         }
         let sides = [topology.face[2 * edge as usize], topology.face[2 * edge as usize + 1]];

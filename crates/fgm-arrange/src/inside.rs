@@ -3,36 +3,42 @@ use crate::predicate::orient_any;
 use fgm_core::{Bounds2, Point2};
 
 /// Shares of the height at which level lines are drawn; the first that gives a good chord is taken.
-const LEVELS: [f64; 9] = [0.5, 0.31, 0.69, 0.19, 0.81, 0.4, 0.6, 0.07, 0.93];
-
-/// A chord this wide, compared with the root of twice the box's area, is good enough.
-const GOOD: f64 = 0.2;
+const LEVELS: [f64; 7] = [0.5, 0.31, 0.69, 0.19, 0.81, 0.07, 0.93];
 
 /// A point strictly inside the region of these rings, in mm; the rings are in lattice steps.
 pub(crate) fn point(rings: &[Vec<Point2>], lattice: &Lattice) -> Point2 {
     let bounds = Bounds2::of(rings.first().into_iter().flatten().copied());
-    let size = bounds.max - bounds.min;
-    let good = GOOD * (size.x * size.y).sqrt();
+    let good = breadth(rings);
     let mut crossings = Vec::new();
     let mut best: Option<(f64, Point2)> = None;
-    // Level lines along x, then along y.
-    for turned in [false, true] {
-        for share in LEVELS {
-            let candidate = chord(rings, turned, share, &bounds, &mut crossings);
-            let Some((width, middle)) = candidate else { continue };
-            if best.is_none_or(|(w, _)| width > w) && holds(rings, lattice, middle) {
-                best = Some((width, middle));
-            }
-            if best.is_some_and(|(w, _)| w >= good) {
+    // Level lines along x and along y in turn.
+    for (share, turned) in LEVELS.into_iter().flat_map(|share| [(share, false), (share, true)]) {
+        let candidate = chord(rings, turned, share, &bounds, &mut crossings);
+        let Some((width, middle)) = candidate else { continue };
+        if best.is_none_or(|(w, _)| width > w) && holds(rings, lattice, middle) {
+            best = Some((width, middle));
+            if width >= good {
                 break;
             }
-        }
-        if best.is_some_and(|(w, _)| w >= good) {
-            break;
         }
     }
     let found = best.map(|(_, p)| p).or_else(|| thin(rings, lattice, &mut crossings));
     lattice.unscaled(found.unwrap_or(bounds.center()))
+}
+
+/// How broad the region is on the whole: its area by half its border's length (in x and in y), so
+/// for a band its breadth or a little less, for a disc or a square about half of it.
+fn breadth(rings: &[Vec<Point2>]) -> f64 {
+    let (mut area, mut length) = (0.0, 0.0);
+    for ring in rings {
+        let origin = ring.first().copied().unwrap_or_default();
+        for (a, b) in edges(ring) {
+            area += (a - origin).perp_dot(b - origin);
+            let d = (b - a).abs();
+            length += d.x + d.y;
+        }
+    }
+    area / length
 }
 
 fn turn(p: Point2, turned: bool) -> Point2 {

@@ -70,10 +70,16 @@ impl Lattice {
     }
 }
 
-/// Half up, as pixels are closed below and open above.
+/// To the nearest whole number, half up, as pixels are closed below and open above; for numbers
+/// below 2^51.
+///
+/// Adding and taking away 1.5 * 2^52 leaves no room for a fraction. `floor` would be a call where
+/// the target has no instruction for it.
 #[inline]
 pub(crate) fn round(v: f64) -> f64 {
-    (v + 0.5).floor()
+    const SHIFT: f64 = 1.5 * (1u64 << 52) as f64;
+    let even = (v + SHIFT) - SHIFT;
+    if v - even >= 0.5 { even + 1.0 } else { even }
 }
 
 #[cfg(test)]
@@ -85,6 +91,17 @@ mod tests {
     fn useless_steps_are_refused() {
         for step in [0.0, -1e-6, f64::NAN, f64::INFINITY, 1e-300, 1e7] {
             assert!(matches!(Lattice::new(step), Err(ArrangeError::Lattice { .. })), "{step}");
+        }
+    }
+
+    #[test]
+    fn halves_are_rounded_up() {
+        for k in [-(1i64 << 40), -3, -2, -1, 0, 1, 2, 3, (1 << 40) - 1] {
+            let k = k as f64;
+            let cases = [(k, k), (k + 0.5, k + 1.0), (k + 0.25, k), (k + 0.75, k + 1.0)];
+            for (v, expected) in cases {
+                assert_eq!(round(v), expected, "{v}");
+            }
         }
     }
 

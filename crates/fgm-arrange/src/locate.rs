@@ -59,7 +59,7 @@ impl Topology {
                 && b.min.y <= p.y
                 && best.get().is_none_or(|f| b.max.y >= f.left.y.min(f.right.y))
         };
-        self.tree.query(reaches, |piece| {
+        self.tree.query_from_above(reaches, |piece| {
             let piece = &self.pieces[piece as usize];
             if !counts(piece.owner) {
                 return;

@@ -16,6 +16,8 @@ pub(crate) struct Piece {
     pub(crate) last: u32,
     /// The line that it is a part of.
     pub(crate) owner: u32,
+    /// The ways it goes, as [`heading`] tells them.
+    heading: u8,
 }
 
 /// A bit each for going right, left, up and down.
@@ -25,6 +27,12 @@ fn heading(a: Point2, b: Point2) -> u8 {
         | u8::from(a.x > b.x) << 1
         | u8::from(a.y < b.y) << 2
         | u8::from(a.y > b.y) << 3
+}
+
+/// Whether these are opposite ways.
+#[inline]
+fn turns_back(heading: u8) -> bool {
+    heading & (heading >> 1) & 0b0101 != 0
 }
 
 /// Cuts the line through `points[first..=last]` into pieces.
@@ -41,13 +49,14 @@ pub(crate) fn split(
         let mut seen = heading(points[start], points[start + 1]);
         let mut at = start + 1;
         while at < end {
-            seen |= heading(points[at], points[at + 1]);
-            if seen & (seen >> 1) & 0b0101 != 0 {
+            let more = seen | heading(points[at], points[at + 1]);
+            if turns_back(more) {
                 break;
             }
+            seen = more;
             at += 1;
         }
-        out.push(Piece { first: start as u32, last: at as u32, owner });
+        out.push(Piece { first: start as u32, last: at as u32, owner, heading: seen });
         start = at;
     }
 }
@@ -61,7 +70,8 @@ pub(crate) fn around(a: Point2, b: Point2) -> Bounds2 {
 /// Whether two rectangles share a point.
 #[inline]
 pub(crate) fn overlap(a: &Bounds2, b: &Bounds2) -> bool {
-    a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y
+    // Without branches: which of the four fails cannot be predicted.
+    (a.min.x <= b.max.x) & (b.min.x <= a.max.x) & (a.min.y <= b.max.y) & (b.min.y <= a.max.y)
 }
 
 /// Whether a segment comes within `margin` of a box, in x and in y; where the answer is close it is
@@ -82,6 +92,14 @@ impl Piece {
     #[inline]
     pub(crate) fn bounds(&self, points: &[Point2]) -> Bounds2 {
         around(points[self.first as usize], points[self.last as usize])
+    }
+
+    /// Whether another piece of the same line only goes on from this one, so that the two meet in
+    /// their common point alone.
+    #[inline]
+    pub(crate) fn goes_on_into(&self, other: &Self) -> bool {
+        let (a, b) = if self.first < other.first { (self, other) } else { (other, self) };
+        a.last == b.first && a.owner == b.owner && !turns_back(a.heading | b.heading)
     }
 
     /// The first points of its segments.

@@ -44,6 +44,12 @@ pub(crate) fn orient(a: Point2, b: Point2, c: Point2) -> f64 {
 /// Positive where `c` lies to the left of the line from `a` to `b`; the points are any.
 #[inline]
 pub(crate) fn orient_any(a: Point2, b: Point2, c: Point2) -> f64 {
+    let (d, e) = (b - a, c - a);
+    let (l, r) = (d.x * e.y, d.y * e.x);
+    // Shewchuk's bound for rounded differences, products and difference is 3.33e-16.
+    if (l - r).abs() > 4.0e-16 * (l.abs() + r.abs()) {
+        return l - r;
+    }
     let coord = |p: Point2| Coord { x: p.x, y: p.y };
     orient2d(coord(a), coord(b), coord(c))
 }

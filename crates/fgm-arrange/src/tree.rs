@@ -116,6 +116,44 @@ impl BoxTree {
         }
     }
 
+    /// As [`query`](Self::query), but takes what is highest first, and asks `reaches` again when
+    /// its turn has come: what was found meanwhile may rule it out.
+    #[inline]
+    pub(crate) fn query_from_above(
+        &self,
+        reaches: impl Fn(&Bounds2) -> bool,
+        mut found: impl FnMut(u32),
+    ) {
+        let Some(top) = self.levels.len().checked_sub(2) else { return };
+        let mut stack = [(0u32, 0u32); DEPTH];
+        stack[0] = (top as u32, self.levels[top]);
+        let mut held = 1;
+        while held > 0 {
+            held -= 1;
+            let (level, node) = stack[held];
+            if !reaches(&self.boxes[node as usize]) {
+                continue;
+            }
+            if level == 0 {
+                found(self.items[node as usize]);
+                continue;
+            }
+            let base = held;
+            for child in self.children(level as usize, node as usize) {
+                if reaches(&self.boxes[child]) {
+                    let mut at = held;
+                    let height = self.boxes[child].max.y;
+                    while at > base && self.boxes[stack[at - 1].1 as usize].max.y > height {
+                        stack[at] = stack[at - 1];
+                        at -= 1;
+                    }
+                    stack[at] = (level - 1, child as u32);
+                    held += 1;
+                }
+            }
+        }
+    }
+
     /// The boxes below a node.
     #[inline]
     fn children(&self, level: usize, node: usize) -> std::ops::Range<usize> {
