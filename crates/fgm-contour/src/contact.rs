@@ -52,102 +52,169 @@ impl Segment {
     }
 }
 
-/// Height of the strips in which segments are compared, in mean heights of segments.
+/// Height of the strips in which runs are compared, in mean heights of runs.
 const STRIP_HEIGHT: f64 = 2.0;
 const MOST_STRIPS: f64 = 4096.0;
+/// Runs that begin in one column on average.
+const RUNS_A_COLUMN: f64 = 2.0;
+/// Segments of a run.
+const MOST_SEGMENTS: usize = 8;
+
+/// Consecutive segments that all head for the same quadrant, which keeps them off each other, and
+/// the rectangle around them.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    from: u32,
+    to: u32,
+    low: Point2,
+    high: Point2,
+}
+
+impl Run {
+    fn meets(&self, other: &Self) -> bool {
+        self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
+    }
+
+    /// The segments that reach into the rectangle of another.
+    fn reaching<'a>(
+        &self,
+        segments: &'a [Segment],
+        other: &Self,
+    ) -> impl Iterator<Item = (usize, &'a Segment)> + use<'a> {
+        let (from, low, high) = (self.from as usize, other.low, other.high);
+        let run = segments[from..self.to as usize].iter().enumerate();
+        let reaches =
+            move |s: &Segment| s.a.min(s.b).cmple(high).all() && low.cmple(s.a.max(s.b)).all();
+        run.filter(move |(_, s)| reaches(s)).map(move |(k, s)| (from + k, s))
+    }
+}
+
+fn split(segments: &[Segment], runs: &mut Vec<Run>) {
+    runs.clear();
+    let heading = |s: &Segment| s.a.cmple(s.b);
+    let mut from = 0;
+    while from < segments.len() {
+        let first = &segments[from];
+        let quadrant = heading(first);
+        let next = segments[from..].windows(2).take(MOST_SEGMENTS - 1);
+        let more = next.take_while(|w| w[0].b == w[1].a && heading(&w[1]) == quadrant).count();
+        let to = from + 1 + more;
+        let last = segments[to - 1].b;
+        let (low, high) = (first.a.min(last), first.a.max(last));
+        runs.push(Run { from: from as u32, to: to as u32, low, high });
+        from = to;
+    }
+}
 
 /// Finds the pairs of segments that cross or touch, other than neighbours at their joint.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
-    order: Vec<(f64, u32)>,
-    /// For each strip, where its segments begin in `members`, which are in the order of x.
-    offsets: Vec<u32>,
+    runs: Vec<Run>,
+    /// The runs in the order of the columns in which they begin, and where each column does.
+    order: Vec<u32>,
+    columns: Vec<u32>,
+    /// The same by the strips that they pass through, in the same order in each.
     members: Vec<u32>,
-    open: Vec<u32>,
+    strips: Vec<u32>,
+    /// Runs still open, each with the column in which it ends.
+    open: Vec<(u32, u32)>,
 }
 
-/// Level strips of the plane.
+/// Equal divisions of a range of numbers.
 #[derive(Clone, Copy)]
-struct Strips {
-    bottom: f64,
-    height: f64,
+struct Divisions {
+    start: f64,
+    per_unit: f64,
     count: usize,
 }
 
-impl Strips {
-    fn new(segments: &[Segment]) -> Self {
-        let (mut bottom, mut top, mut total) = (f64::INFINITY, f64::NEG_INFINITY, 0.0);
-        for s in segments {
-            bottom = s.a.y.min(s.b.y).min(bottom);
-            top = s.a.y.max(s.b.y).max(top);
-            total += (s.a.y - s.b.y).abs();
+impl Divisions {
+    fn new(start: f64, end: f64, count: f64, most: f64) -> Self {
+        let count = if count.is_nan() { 1 } else { count.clamp(1.0, most) as usize };
+        Self { start, per_unit: count as f64 / (end - start), count }
+    }
+
+    fn of(&self, value: f64) -> usize {
+        (((value - self.start) * self.per_unit) as usize).min(self.count - 1)
+    }
+}
+
+/// Columns by where runs begin and strips by where they pass.
+fn divide(runs: &[Run]) -> (Divisions, Divisions) {
+    let (mut low, mut high) = (Point2::INFINITY, Point2::NEG_INFINITY);
+    let mut total = 0.0;
+    for run in runs {
+        (low, high) = (low.min(run.low), high.max(run.high));
+        total += run.high.y - run.low.y;
+    }
+    let n = runs.len() as f64;
+    let strips = ((high.y - low.y) * n / (STRIP_HEIGHT * total)).min(n);
+    (
+        Divisions::new(low.x, high.x, n / RUNS_A_COLUMN, f64::from(u16::MAX)),
+        Divisions::new(low.y, high.y, strips, MOST_STRIPS),
+    )
+}
+
+/// Sorts by counting: `keys` gives each item's places, in order; answers where each place begins.
+fn count_sort<K: IntoIterator<Item = usize>>(
+    items: impl Iterator<Item = u32> + Clone,
+    keys: impl Fn(u32) -> K,
+    places: usize,
+    (starts, sorted): (&mut Vec<u32>, &mut Vec<u32>),
+) {
+    // Counted one place up, so that filling moves each beginning to where it belongs.
+    starts.clear();
+    starts.resize(places + 2, 0);
+    items.clone().flat_map(&keys).for_each(|key| starts[key + 2] += 1);
+    for place in 2..starts.len() {
+        starts[place] += starts[place - 1];
+    }
+    sorted.clear();
+    sorted.resize(starts[places + 1] as usize, 0);
+    for item in items {
+        for key in keys(item) {
+            let slot = &mut starts[key + 1];
+            sorted[*slot as usize] = item;
+            *slot += 1;
         }
-        let n = segments.len() as f64;
-        let count = ((top - bottom) * n / (STRIP_HEIGHT * total)).min(n).clamp(1.0, MOST_STRIPS);
-        let count = if count.is_nan() { 1 } else { count as usize };
-        Self { bottom, height: (top - bottom) / count as f64, count }
-    }
-
-    fn of(&self, y: f64) -> usize {
-        (((y - self.bottom) / self.height) as usize).min(self.count - 1)
-    }
-
-    fn range(&self, s: &Segment) -> std::ops::RangeInclusive<usize> {
-        self.of(s.a.y.min(s.b.y))..=self.of(s.a.y.max(s.b.y))
     }
 }
 
 impl Contacts {
     /// Calls `found` once with the indices of every such pair. Each strip of the plane is swept
-    /// along x, every segment compared with those that are still open there.
+    /// along x, every run of segments compared with those that are still open there.
     pub(crate) fn find(&mut self, segments: &[Segment], mut found: impl FnMut(usize, usize)) {
-        let strips = Strips::new(segments);
-        self.sort(segments, &strips);
+        split(segments, &mut self.runs);
+        let runs = &self.runs;
+        let (columns, strips) = divide(runs);
+        let column = |k: u32| [columns.of(runs[k as usize].low.x)];
+        let passes = |k: u32| {
+            let run = &runs[k as usize];
+            strips.of(run.low.y)..=strips.of(run.high.y)
+        };
+        let all = 0..runs.len() as u32;
+        count_sort(all, column, columns.count, (&mut self.columns, &mut self.order));
+        let order = self.order.iter().copied();
+        count_sort(order, passes, strips.count, (&mut self.strips, &mut self.members));
         for strip in 0..strips.count {
             self.open.clear();
-            let range = self.offsets[strip] as usize..self.offsets[strip + 1] as usize;
+            let range = self.strips[strip] as usize..self.strips[strip + 1] as usize;
             for &k in &self.members[range] {
-                let new = &segments[k as usize];
-                let (x, low) = (new.a.x.min(new.b.x), new.a.y.min(new.b.y));
-                self.open.retain(|&o| {
-                    let old = &segments[o as usize];
-                    if old.a.x.max(old.b.x) < x {
+                let new = &runs[k as usize];
+                let first = columns.of(new.low.x);
+                self.open.retain(|&(o, end)| {
+                    // What ended before this column has nothing more to meet.
+                    if (end as usize) < first {
                         return false;
                     }
+                    let old = &runs[o as usize];
                     // In several strips together, they meet in the lowest of those.
-                    let here = || strips.of(low.max(old.a.y.min(old.b.y))) == strip;
-                    if old.boxes_meet(new) && here() && old.touches(new) {
-                        found(o as usize, k as usize);
+                    if old.meets(new) && strips.of(new.low.y.max(old.low.y)) == strip {
+                        compare(segments, old, new, &mut found);
                     }
                     true
                 });
-                self.open.push(k);
-            }
-        }
-    }
-
-    fn sort(&mut self, segments: &[Segment], strips: &Strips) {
-        self.order.clear();
-        self.order.extend(segments.iter().enumerate().map(|(k, s)| (s.a.x.min(s.b.x), k as u32)));
-        self.order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // Counted one place up, so that filling moves each beginning to where it belongs.
-        self.offsets.clear();
-        self.offsets.resize(strips.count + 2, 0);
-        for segment in segments {
-            for strip in strips.range(segment) {
-                self.offsets[strip + 2] += 1;
-            }
-        }
-        for strip in 2..self.offsets.len() {
-            self.offsets[strip] += self.offsets[strip - 1];
-        }
-        self.members.clear();
-        self.members.resize(self.offsets[strips.count + 1] as usize, 0);
-        for &(_, k) in &self.order {
-            for strip in strips.range(&segments[k as usize]) {
-                let slot = &mut self.offsets[strip + 1];
-                self.members[*slot as usize] = k;
-                *slot += 1;
+                self.open.push((k, columns.of(new.high.x) as u32));
             }
         }
     }
@@ -157,6 +224,16 @@ impl Contacts {
         let mut any = false;
         self.find(segments, |_, _| any = true);
         any
+    }
+}
+
+fn compare(segments: &[Segment], a: &Run, b: &Run, found: &mut impl FnMut(usize, usize)) {
+    for (k, s) in a.reaching(segments, b) {
+        for (l, t) in b.reaching(segments, a) {
+            if s.boxes_meet(t) && s.touches(t) {
+                found(k, l);
+            }
+        }
     }
 }
 
@@ -199,6 +276,43 @@ mod tests {
                 }
                 assert_eq!(Contacts::default().any(&pair), expected, "{name}, turned {flip}");
             }
+        }
+    }
+
+    /// Two long lines of many runs: what the sweep finds is what comparing all finds.
+    #[test]
+    fn the_sweep_finds_what_comparing_all_finds() {
+        let mut state = 7_u64;
+        let mut random = |n: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 33) % n
+        };
+        for round in 0..300 {
+            let (count, size) = (2 + random(60), 2 + random(40));
+            let mut at = Point2::ZERO;
+            let mut segments = Vec::new();
+            for _ in 0..count {
+                // Short steps on a lattice: touches, overlaps and repeated places abound.
+                let to =
+                    at + Point2::new(random(size) as f64, random(size) as f64) - (size / 2) as f64;
+                let jump = random(9) == 0;
+                if to != at && !jump {
+                    segments.push(Segment { a: at, b: to, tag: 0 });
+                }
+                at = to;
+            }
+            let mut expected = Vec::new();
+            for (k, s) in segments.iter().enumerate() {
+                for (l, t) in segments.iter().enumerate().skip(k + 1) {
+                    if s.boxes_meet(t) && s.touches(t) {
+                        expected.push((k, l));
+                    }
+                }
+            }
+            let mut found = Vec::new();
+            Contacts::default().find(&segments, |k, l| found.push((k.min(l), k.max(l))));
+            found.sort_unstable();
+            assert_eq!(found, expected, "round {round}");
         }
     }
 }

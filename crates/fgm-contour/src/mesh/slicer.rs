@@ -4,7 +4,7 @@ use super::section::Section;
 use super::shells::inverted;
 use super::slabs::Slabs;
 use super::topology::{OPEN, join_sides};
-use super::union::unite;
+use super::union::{Meeting, unite};
 use super::weld::{Welded, weld};
 use crate::ContourError;
 use fgm_core::{Bounds3, Point2, TriangleMesh};
@@ -32,11 +32,13 @@ pub struct MeshSlicer {
     scratch: Mutex<Vec<Scratch>>,
 }
 
-/// Which triangles a section has been through: those stamped with its number.
+/// Memory kept from one section to the next.
 #[derive(Debug, Default)]
 struct Scratch {
+    /// Triangles that a section has been through are stamped with its number.
     stamps: Vec<u32>,
     epoch: u32,
+    meeting: Meeting,
 }
 
 impl Scratch {
@@ -104,12 +106,13 @@ impl MeshSlicer {
                 self.follow(z, (3 * t + down, 3 * t + up), &mut scratch, &mut closed, &mut open);
             }
         }
-        self.give_scratch(scratch);
         let mut section = Section::default();
         if !open.is_empty() {
             closed.extend(close(open, self.gap, &mut section.warnings));
         }
-        section.polygons = unite(closed.into_iter().filter_map(Border::into_ring).collect());
+        let rings = closed.into_iter().filter_map(Border::into_ring).collect();
+        section.polygons = unite(rings, &mut scratch.meeting);
+        self.give_scratch(scratch);
         section
     }
 

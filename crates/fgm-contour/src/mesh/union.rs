@@ -12,8 +12,8 @@ const STEPS: f64 = 1e6;
 ///
 /// Rings that do not meet keep their vertices to the bit; if any do, all are united on a lattice
 /// of 1e-6 mm.
-pub(crate) fn unite(rings: Vec<Ring>) -> Vec<Polygon> {
-    if meet(&rings) {
+pub(crate) fn unite(rings: Vec<Ring>, scratch: &mut Meeting) -> Vec<Polygon> {
+    if scratch.any(&rings) {
         return nest(unite_crossing(&rings));
     }
     let around = containing(&rings);
@@ -31,13 +31,22 @@ pub(crate) fn unite(rings: Vec<Ring>) -> Vec<Polygon> {
     assemble(rings, &around, &holes)
 }
 
-/// Whether any two edges of the rings cross or touch, other than neighbours at their joint.
-fn meet(rings: &[Ring]) -> bool {
-    let mut segments = Vec::with_capacity(rings.iter().map(|r| r.points.len()).sum());
-    for ring in rings {
-        segments.extend(ring.edges().map(|(a, b)| Segment { a, b, tag: 0 }));
+/// Scratch memory for finding whether rings meet.
+#[derive(Debug, Default)]
+pub(crate) struct Meeting {
+    segments: Vec<Segment>,
+    contacts: Contacts,
+}
+
+impl Meeting {
+    /// Whether any two edges of the rings cross or touch, other than neighbours at their joint.
+    fn any(&mut self, rings: &[Ring]) -> bool {
+        self.segments.clear();
+        for ring in rings {
+            self.segments.extend(ring.edges().map(|(a, b)| Segment { a, b, tag: 0 }));
+        }
+        self.contacts.any(&self.segments)
     }
-    Contacts::default().any(&segments)
 }
 
 fn unite_crossing(rings: &[Ring]) -> Vec<Ring> {
