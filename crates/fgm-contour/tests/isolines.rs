@@ -184,7 +184,7 @@ fn waves(greatest: f64) -> impl Strategy<Value = Waves> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn vertices_of_smooth_fields_lie_on_their_level(w in waves(0.6), first in -0.5..0.5f64) {

@@ -289,6 +289,23 @@ proptest! {
     }
 
     #[test]
+    fn stars_keep_their_tips(
+        tips in 3..9u32, outer in 6.0..9.0f64, depth in 0.3..0.7f64, turn in 0.0..6.3f64,
+        x in -0.5..0.5f64, y in -0.5..0.5f64,
+    ) {
+        let (tips, inner) = (f64::from(tips), outer * depth);
+        let field = |p: Point2| star(p - Point2::new(x, y), tips, outer, inner, turn);
+        let found = outline(&field, &window(10.0), &ContourOptions::default()).unwrap();
+        assert_valid(&found);
+        prop_assert_eq!(found.len(), 1);
+        for tip in 0..tips as u32 {
+            let at = turn + f64::from(tip) * TAU / tips;
+            let tip = Point2::new(x, y) + Point2::from_angle(at) * outer;
+            prop_assert!(nearest(&found, tip) < 0.01, "{} off", nearest(&found, tip));
+        }
+    }
+
+    #[test]
     fn what_is_two_samples_wide_is_found(x in -9.0..9.0f64, y in -9.0..9.0f64, turn in 0.0..3.2f64) {
         // Any square of more than a cell's diagonal each way holds a sample.
         let options = ContourOptions::default();
