@@ -1,6 +1,7 @@
 //! Walls: loops along the outline, inside holes too.
 
 pub(crate) mod peel;
+mod split;
 
 use fgm_core::{Polygon, Role, bead};
 

@@ -76,12 +76,12 @@ impl Turn {
             let p = Point2::new(p.x as f64, p.y as f64) / UNITS;
             if self.0 { p.perp() } else { p }
         };
-        to_polygons(paths.iter().map(|path| Ring::new(path.iter().map(point).collect())))
+        nest(paths.iter().map(|path| Ring::new(path.iter().map(point).collect())))
     }
 }
 
 /// Rings sorted into outer ones and the holes of each.
-fn to_polygons(rings: impl Iterator<Item = Ring>) -> Vec<Polygon> {
+pub(crate) fn nest(rings: impl Iterator<Item = Ring>) -> Vec<Polygon> {
     let mut out: Vec<Polygon> = Vec::new();
     let mut boxes: Vec<Bounds2> = Vec::new();
     let mut areas: Vec<f64> = Vec::new();

@@ -11,6 +11,9 @@ const SHARPEST_REFLEX: f64 = 0.5;
 /// The same where the moved corner lies inside the old one: only to keep the division tame.
 const SHARPEST_CONVEX: f64 = 0.02;
 
+/// How often turned edges are looked for before a ring is left to the sweep.
+const MOST_PASSES: usize = 12;
+
 /// The region with its border moved inward by `distance` (outward where negative); `None` where
 /// that would make borders meet, or an edge vanish.
 pub(super) fn offset(region: &[Polygon], distance: f64) -> Option<Vec<Polygon>> {
@@ -50,7 +53,70 @@ fn ring(ring: &Ring, distance: f64) -> Option<Ring> {
     }
     let out = Ring::new(points);
     let kept = ring.edges().zip(out.edges()).all(|((a, b), (c, d))| (b - a).dot(d - c) > 0.0);
-    kept.then_some(out)
+    if kept { Some(out) } else { collapsed(ring, distance) }
+}
+
+/// An edge moved: a point of it and its direction.
+#[derive(Clone, Copy)]
+struct Line {
+    from: Point2,
+    along: Point2,
+}
+
+/// The moved ring without the edges that vanish on the way: their neighbours meet instead.
+fn collapsed(ring: &Ring, distance: f64) -> Option<Ring> {
+    let mut lines = Vec::with_capacity(ring.points.len());
+    for (a, b) in ring.edges() {
+        let along = direction(a, b)?;
+        lines.push(Line { from: a + along.perp() * distance, along });
+    }
+    let mut points = Vec::with_capacity(lines.len());
+    let mut lengths: Vec<f64> = Vec::with_capacity(lines.len());
+    for _ in 0..MOST_PASSES {
+        let n = lines.len();
+        if n < 3 {
+            return None;
+        }
+        points.clear();
+        for i in 0..n {
+            points.push(meeting(&lines[(i + n - 1) % n], &lines[i], distance)?);
+        }
+        lengths.clear();
+        lengths.extend((0..n).map(|i| (points[(i + 1) % n] - points[i]).dot(lines[i].along)));
+        if lengths.iter().all(|&l| l > 0.0) {
+            return Some(Ring::new(points));
+        }
+        // Of turned edges side by side only the one turned furthest goes: the others may be whole
+        // without it.
+        let mut i = 0;
+        lines.retain(|_| {
+            let own = lengths[i];
+            let (before, after) = (lengths[(i + n - 1) % n], lengths[(i + 1) % n]);
+            i += 1;
+            own > 0.0 || own > before || own >= after
+        });
+        if lines.len() == n {
+            return None;
+        }
+    }
+    None
+}
+
+/// Where two moved lines meet, the second after the first; `None` where that is far away.
+fn meeting(first: &Line, second: &Line, distance: f64) -> Option<Point2> {
+    let (turn, cos) = (first.along.perp_dot(second.along), first.along.dot(second.along));
+    let reflex = turn * distance < 0.0;
+    if 1.0 + cos < if reflex { SHARPEST_REFLEX } else { SHARPEST_CONVEX } {
+        return None;
+    }
+    let gap = second.from - first.from;
+    if turn.abs() < 0.02 {
+        // As good as parallel: only lines that are one line meet, at the second's beginning.
+        let apart = first.along.perp_dot(gap);
+        return (apart.abs() < 0.03 * distance.abs())
+            .then(|| second.from - first.along.perp() * apart);
+    }
+    Some(first.from + first.along * (gap.perp_dot(second.along) / turn))
 }
 
 fn direction(a: Point2, b: Point2) -> Option<Point2> {

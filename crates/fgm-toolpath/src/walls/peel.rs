@@ -12,6 +12,9 @@ const HALF_LOOP: f64 = 1.3;
 /// How far a thin rest stands off the beads beside it, mm, so that rounding makes no slivers.
 const STAND_OFF: f64 = 1e-2;
 
+/// The least area of a thin rest, in squares of the spacing.
+const LEAST_THIN: f64 = 0.1;
+
 /// A region taken apart.
 #[derive(Debug, Default)]
 pub(crate) struct Peel {
@@ -65,6 +68,47 @@ fn step(
         next.push(inner);
         return;
     }
+    if let Some(split) = super::split::split(&polygon, half) {
+        for polygon in split.thick {
+            shell(polygon, spacing, inset, loops, next);
+        }
+        let least = LEAST_THIN * spacing * spacing;
+        thin.extend(split.thin.into_iter().filter(|p| p.area() > least));
+        return;
+    }
+    slow(polygon, spacing, inset, loops, next, thin);
+}
+
+/// One loop of what is thick throughout.
+fn shell(
+    polygon: Polygon,
+    spacing: f64,
+    inset: &dyn Inset,
+    loops: &mut Vec<Polygon>,
+    next: &mut Vec<Polygon>,
+) {
+    if let Some(rings) = inset.nested(&polygon, spacing, &[0.5 * spacing, spacing])
+        && let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings)
+    {
+        loops.push(centre);
+        next.push(inner);
+        return;
+    }
+    let centre = inset.inset(&[polygon], 0.5 * spacing);
+    next.extend(inset.inset(&centre, 0.5 * spacing));
+    loops.extend(centre);
+}
+
+/// The same by offsets and booleans alone, for borders that cuts cannot handle.
+fn slow(
+    polygon: Polygon,
+    spacing: f64,
+    inset: &dyn Inset,
+    loops: &mut Vec<Polygon>,
+    next: &mut Vec<Polygon>,
+    thin: &mut Vec<Polygon>,
+) {
+    let half = HALF_LOOP * spacing;
     let polygon = [polygon];
     let core = inset.inset(&polygon, half);
     if core.is_empty() {
@@ -77,7 +121,7 @@ fn step(
     let around = region::intersection(&inset.inset(&polygon, 0.5 * spacing), &fits);
     let covered = inset.inset(&around, -0.5 * spacing - STAND_OFF);
     let left = region::difference(&polygon, &covered);
-    let least = 0.1 * spacing * spacing;
+    let least = LEAST_THIN * spacing * spacing;
     thin.extend(left.into_iter().filter(|p| p.area() > least));
     next.extend(inset.inset(&around, 0.5 * spacing));
     loops.extend(around);
