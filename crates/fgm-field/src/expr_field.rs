@@ -7,7 +7,7 @@ use fgm_core::{Bounds2, Bounds3, Field, Interval, PlanarField, Point2, Point3};
 
 use crate::SharedField;
 use crate::expr::Expr;
-use crate::expr::graph::{VARS, Var};
+use crate::expr::graph::Var;
 use crate::sampled::{Layer, Sampled, layers};
 use crate::tape::Tape;
 use crate::tape::chunk::CHUNK;
@@ -16,8 +16,7 @@ use crate::tape::chunk::CHUNK;
 /// boxes. Cheap to clone.
 ///
 /// Many points at a time give the same bits as one, on every machine. No evaluation allocates
-/// (but for registers, once a thread). A range costs about as much as a value at two to four
-/// points.
+/// (but for registers, once a thread).
 ///
 /// ```
 /// use fgm_core::{Bounds3, Field, Point3};
@@ -73,40 +72,6 @@ impl fmt::Debug for ExprField {
     }
 }
 
-/// A tape's variables at a point: coordinates, then the inputs that it reads.
-fn vars_at<S: Sampled>(
-    tape: &Tape,
-    coordinates: [f64; 3],
-    p: S::Point,
-    inputs: &[S],
-) -> [f64; VARS] {
-    let mut vars = [f64::NAN; VARS];
-    vars[..3].copy_from_slice(&coordinates);
-    for (input, (var, field)) in vars[3..].iter_mut().zip(inputs).enumerate() {
-        if tape.reads(3 + input) {
-            *var = field.value(p);
-        }
-    }
-    vars
-}
-
-/// The ranges of a tape's variables in a cell.
-fn ranges_in<S: Sampled>(
-    tape: &Tape,
-    coordinates: [Interval; 3],
-    cell: &S::Cell,
-    inputs: &[S],
-) -> [Interval; VARS] {
-    let mut ranges = [Interval::EVERYTHING; VARS];
-    ranges[..3].copy_from_slice(&coordinates);
-    for (input, (range, field)) in ranges[3..].iter_mut().zip(inputs).enumerate() {
-        if tape.reads(3 + input) {
-            *range = field.range(cell);
-        }
-    }
-    ranges
-}
-
 /// The values of a tape at many points, `coordinate(p, i)` being the `i`-th coordinate.
 fn values_at<S: Sampled>(
     tape: &Tape,
@@ -134,7 +99,12 @@ fn values_at<S: Sampled>(
 
 impl Field for ExprField {
     fn eval(&self, p: Point3) -> f64 {
-        self.tape.eval(&vars_at(&self.tape, p.to_array(), p, &self.inputs))
+        self.tape.eval(|var| match var {
+            0 => p.x,
+            1 => p.y,
+            2 => p.z,
+            _ => self.inputs.get(var - 3).map_or(f64::NAN, |field| field.eval(p)),
+        })
     }
 
     fn eval_into(&self, points: &[Point3], out: &mut [f64]) {
@@ -142,8 +112,12 @@ impl Field for ExprField {
     }
 
     fn bounds(&self, cell: &Bounds3) -> Interval {
-        let coordinates = [cell.x(), cell.y(), cell.z()];
-        self.tape.bounds(&ranges_in(&self.tape, coordinates, cell, &self.inputs))
+        self.tape.bounds(|var| match var {
+            0 => cell.x(),
+            1 => cell.y(),
+            2 => cell.z(),
+            _ => self.inputs.get(var - 3).map_or(Interval::EVERYTHING, |field| field.bounds(cell)),
+        })
     }
 
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {
@@ -167,7 +141,11 @@ struct ExprLayer<'a> {
 
 impl PlanarField for ExprLayer<'_> {
     fn eval(&self, p: Point2) -> f64 {
-        self.tape.eval(&vars_at(&self.tape, [p.x, p.y, f64::NAN], p, &self.inputs))
+        self.tape.eval(|var| match var {
+            0 => p.x,
+            1 => p.y,
+            _ => self.input(var).map_or(f64::NAN, |field| field.eval(p)),
+        })
     }
 
     fn eval_into(&self, points: &[Point2], out: &mut [f64]) {
@@ -176,7 +154,17 @@ impl PlanarField for ExprLayer<'_> {
     }
 
     fn bounds(&self, cell: &Bounds2) -> Interval {
-        let coordinates = [cell.x(), cell.y(), Interval::EVERYTHING];
-        self.tape.bounds(&ranges_in(&self.tape, coordinates, cell, &self.inputs))
+        self.tape.bounds(|var| match var {
+            0 => cell.x(),
+            1 => cell.y(),
+            _ => self.input(var).map_or(Interval::EVERYTHING, |field| field.bounds(cell)),
+        })
+    }
+}
+
+impl<'a> ExprLayer<'a> {
+    /// The other field that a variable stands for.
+    fn input(&self, var: usize) -> Option<&Layer<'a>> {
+        self.inputs.get(var.checked_sub(3)?)
     }
 }

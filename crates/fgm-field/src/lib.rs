@@ -77,3 +77,7 @@ pub use solid::{
 
 /// A field that several owners and threads share.
 pub type SharedField = std::sync::Arc<dyn fgm_core::Field + Send + Sync>;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -121,6 +121,19 @@ fn an_operand_read_twice_keeps_its_register() {
 }
 
 #[test]
+fn the_sign_of_zero_is_kept() {
+    // Found by `all_evaluations_agree`: `a - z` was taken for `a` in the layer z = -0.
+    for text in ["atan2(0, (-(1 < x) - z) * 1)", "atan2(0, -(1 < x) + z)", "atan2(0, abs(sqrt(z)))"]
+    {
+        let field = compiled(text).unwrap();
+        for z in [0.0, -0.0] {
+            let value = field.eval(Point3::new(0.0, 0.0, z));
+            assert_eq!(value, field.at_z(z).eval(fgm_core::Point2::ZERO), "{text} at {z}");
+        }
+    }
+}
+
+#[test]
 fn short_and_long_runs_agree() {
     let field = compiled("sin(x) / (y + 1) + x^5").unwrap();
     for count in [0, 1, 2, 15, 16, 17, 127, 128, 129, 300] {

@@ -15,12 +15,6 @@ pub(crate) enum Var {
     Input(u8),
 }
 
-/// How many other fields an expression can read: one a material.
-pub(crate) const INPUTS: usize = fgm_core::MAX_MATERIALS;
-
-/// How many [`Var`]s there are.
-pub(crate) const VARS: usize = 3 + INPUTS;
-
 impl Var {
     /// The signed distance of the child.
     pub(crate) const DISTANCE: Self = Self::Input(0);
@@ -54,7 +48,7 @@ pub(crate) enum Node {
 /// Nodes in the order in which they can be evaluated.
 ///
 /// Constants are folded as nodes are added, with the very functions that the tape uses, and only
-/// such rewritings are made as change no result.
+/// such rewritings are made as change no result, the sign of a zero included.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
@@ -97,7 +91,7 @@ impl Graph {
         }
         match (op, self.nodes[a as usize]) {
             (Unary::Neg, Node::Unary(Unary::Neg, inner)) => inner,
-            (Unary::Abs, Node::Unary(Unary::Abs | Unary::Square | Unary::Sqrt, _)) => a,
+            (Unary::Abs, Node::Unary(Unary::Abs | Unary::Square, _)) => a,
             (Unary::Abs | Unary::Square, Node::Unary(Unary::Neg | Unary::Abs, inner)) => {
                 self.unary(op, inner)
             }
@@ -139,7 +133,9 @@ impl Graph {
     /// Rewritings of `a op value`.
     fn with_right(&mut self, op: Binary, a: NodeId, value: f64) -> Option<NodeId> {
         match op {
-            Binary::Add | Binary::Sub if value == 0.0 => Some(a),
+            // The other zero would turn -0 into 0.
+            Binary::Add if value == 0.0 && value.is_sign_negative() => Some(a),
+            Binary::Sub if value == 0.0 && value.is_sign_positive() => Some(a),
             Binary::Mul | Binary::Div | Binary::Pow | Binary::Root if value == 1.0 => Some(a),
             Binary::Mul if value == -1.0 => Some(self.unary(Unary::Neg, a)),
             Binary::Div => op::exact_reciprocal(value).map(|reciprocal| {

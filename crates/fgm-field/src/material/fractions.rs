@@ -237,12 +237,12 @@ impl Fraction {
 
     /// The sum of the weights that count, without one of them.
     fn sum_without(&mut self, left_out: Option<usize>) -> NodeId {
-        let mut sum = self.graph.constant(0.0);
-        for material in (0..self.weights.len()).filter(|m| Some(*m) != left_out) {
-            let weight = self.counted(material);
-            sum = self.op(Binary::Add, sum, weight);
-        }
-        sum
+        let counted: Vec<_> = (0..self.weights.len())
+            .filter(|material| Some(*material) != left_out)
+            .map(|material| self.counted(material))
+            .collect();
+        let sum = counted.into_iter().reduce(|sum, weight| self.op(Binary::Add, sum, weight));
+        sum.unwrap_or_else(|| self.graph.constant(0.0))
     }
 
     fn share(&mut self, material: usize) -> NodeId {
@@ -255,19 +255,20 @@ impl Fraction {
     /// of them is not finite.
     fn largest(&mut self, material: usize) -> NodeId {
         let own = self.weights[material];
-        let mut wins = self.graph.constant(1.0);
         let zero = self.graph.constant(0.0);
-        let mut fault = zero;
+        let mut wins = self.graph.constant(1.0);
         for (i, other) in self.weights.clone().into_iter().enumerate() {
-            let nan_if_not_finite = self.op(Binary::Mul, other, zero);
-            fault = self.op(Binary::Add, fault, nan_if_not_finite);
             if i != material {
                 let op = if i < material { Binary::Less } else { Binary::LessEqual };
                 let beats = self.op(op, other, own);
                 wins = self.op(Binary::And, wins, beats);
             }
         }
-        self.op(Binary::Add, wins, fault)
+        for weight in self.weights.clone() {
+            let nan_if_not_finite = self.op(Binary::Mul, weight, zero);
+            wins = self.op(Binary::Add, wins, nan_if_not_finite);
+        }
+        wins
     }
 
     /// The weight as a share of 1, or what all of them leave for the last material.

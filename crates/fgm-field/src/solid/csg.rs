@@ -143,7 +143,7 @@ struct Smooth {
 impl Smooth {
     fn least(self, a: f64, b: f64) -> f64 {
         let least = math::min(a, b);
-        if !(self.radius > 0.0) {
+        if self.radius.is_nan() || self.radius <= 0.0 {
             return least;
         }
         let near = math::max(1.0 - (a - b).abs() / self.radius, 0.0);

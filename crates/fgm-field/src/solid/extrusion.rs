@@ -18,7 +18,7 @@ impl Extrusion {
     ///
     /// A polygon without area is an empty solid.
     pub fn new(polygon: &Polygon, height: f64) -> Self {
-        let edges: Vec<_> = polygon.rings().flat_map(|ring| ring.edges()).collect();
+        let edges: Vec<_> = polygon.rings().flat_map(fgm_core::Ring::edges).collect();
         Self { edges, bounds: polygon.bounds(), height }
     }
 

@@ -24,6 +24,7 @@ pub(crate) fn constant(value: f64) -> Interval {
 }
 
 /// The range itself, or everything where it is not one.
+#[inline]
 pub(crate) fn checked(range: Interval) -> Interval {
     if range.lo <= range.hi { range } else { EVERYTHING }
 }
@@ -58,6 +59,7 @@ fn growing_within(a: Interval, f: impl Fn(f64) -> f64, range: Interval) -> Inter
     checked(Interval::new(wide.lo.max(range.lo), wide.hi.min(range.hi)))
 }
 
+#[inline]
 fn negated(a: Interval) -> Interval {
     Interval::new(-a.hi, -a.lo)
 }
@@ -91,8 +93,8 @@ pub(crate) fn unary(op: Unary, a: Interval) -> Interval {
             growing(a, |v| op.apply(v))
         }
         Unary::Frac => fraction(a, 1.0, math::frac),
-        Unary::Sin => wave(a, FRAC_PI_2, math::sin),
-        Unary::Cos => wave(a, 0.0, math::cos),
+        Unary::Sin => wave(a, FRAC_PI_2, math::sin_near),
+        Unary::Cos => wave(a, 0.0, math::cos_near),
         Unary::Tan => tangent(a),
         Unary::Asin if inside(-1.0, 1.0) => growing_within(a, libm::asin, REALS),
         Unary::Acos if inside(-1.0, 1.0) => widened(between(libm::acos(a.hi), libm::acos(a.lo))),
@@ -118,7 +120,29 @@ pub(crate) fn unary(op: Unary, a: Interval) -> Interval {
 }
 
 /// The range of an operation on two numbers.
+#[inline]
 pub(crate) fn binary(op: Binary, a: Interval, b: Interval) -> Interval {
+    // The usual ones first, and without a call.
+    match op {
+        Binary::Add => sum(a, b),
+        Binary::Sub => sum(a, negated(b)),
+        Binary::Mul => product(a, b),
+        _ => other_binary(op, a, b),
+    }
+}
+
+/// The range of an operation on a range and a number.
+#[inline]
+pub(crate) fn binary_right(op: Binary, a: Interval, value: f64) -> Interval {
+    match op {
+        Binary::Add => checked(Interval::new(a.lo + value, a.hi + value)),
+        Binary::Mul if value >= 0.0 => checked(Interval::new(a.lo * value, a.hi * value)),
+        Binary::Mul => checked(Interval::new(a.hi * value, a.lo * value)),
+        _ => binary(op, a, constant(value)),
+    }
+}
+
+fn other_binary(op: Binary, a: Interval, b: Interval) -> Interval {
     match op {
         Binary::Less => truth(a.lo >= b.hi, a.hi < b.lo).unless_unknown(a, b),
         Binary::LessEqual => truth(a.lo > b.hi, a.hi <= b.lo).unless_unknown(a, b),
@@ -136,9 +160,6 @@ pub(crate) fn binary(op: Binary, a: Interval, b: Interval) -> Interval {
             !can_be_zero(a) || !can_be_zero(b),
         ),
         _ if a == EVERYTHING || b == EVERYTHING => EVERYTHING,
-        Binary::Add => sum(a, b),
-        Binary::Sub => sum(a, negated(b)),
-        Binary::Mul => corners(a, b, |a, b| a * b),
         Binary::Div if !can_be_zero(b) => corners(a, b, |a, b| a / b),
         Binary::Rem if b.lo == b.hi && b.lo != 0.0 => fraction(a, b.lo.abs(), |v| v % b.lo),
         // A negative power of a negative zero may be a negative infinity.
@@ -216,12 +237,22 @@ fn equal(a: Interval, b: Interval) -> Interval {
     truth(a.hi < b.lo || b.hi < a.lo, a.lo == a.hi && a == b)
 }
 
+/// Infinities of opposite signs, whose sum is NaN, leave no end finite: the answer is everything.
+#[inline]
 fn sum(a: Interval, b: Interval) -> Interval {
-    let opposite = |a: f64, b: f64| a.is_infinite() && b == -a;
-    if opposite(a.lo, b.hi) || opposite(a.hi, b.lo) {
+    checked(Interval::new(a.lo + b.lo, a.hi + b.hi))
+}
+
+#[inline]
+fn product(a: Interval, b: Interval) -> Interval {
+    let (p, q, r, s) = (a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
+    // Also NaN for infinities of both signs, which leave no end finite.
+    if (p + q + r + s).is_nan() {
         return EVERYTHING;
     }
-    between(a.lo + b.lo, a.hi + b.hi)
+    let least = |a: f64, b: f64| if a < b { a } else { b };
+    let greatest = |a: f64, b: f64| if a > b { a } else { b };
+    Interval::new(least(least(p, q), least(r, s)), greatest(greatest(p, q), greatest(r, s)))
 }
 
 /// The range between the least and the greatest of the four corners, for a function that only
@@ -250,28 +281,25 @@ fn fraction(a: Interval, period: f64, f: impl Fn(f64) -> f64) -> Interval {
     Interval::new(if a.lo < 0.0 { -period } else { 0.0 }, if a.hi > 0.0 { period } else { 0.0 })
 }
 
-/// The range of a sine-like function with a crest at `crest`.
-fn wave(a: Interval, crest: f64, f: impl Fn(f64) -> f64) -> Interval {
-    if !(a.lo.is_finite() && a.hi.is_finite()) {
-        return EVERYTHING;
-    }
+/// The range of a sine-like function with a crest at `crest`; `near` is the function for arguments
+/// up to [`math::NEAR`].
+#[inline]
+fn wave(a: Interval, crest: f64, near: impl Fn(f64) -> f64) -> Interval {
     const FULL: Interval = Interval::new(-1.0, 1.0);
-    if a.width() >= TAU || a.lo.abs().max(a.hi.abs()) > math::NEAR {
-        return FULL;
+    let known = -math::NEAR <= a.lo && a.hi <= math::NEAR;
+    if !known || a.hi - a.lo >= TAU {
+        return if a.lo.is_infinite() || a.hi.is_infinite() { EVERYTHING } else { FULL };
     }
     // Which turn an end lies in may come out one off next to a crest; the end's own value, widened,
     // is then that of the crest.
-    let passes = |top: f64| {
-        let turn = |v: f64| math::rounded_shift((v - top) * TAU.recip() - 0.5);
-        turn(a.lo) != turn(a.hi)
-    };
-    let (lo, hi) = (f(a.lo), f(a.hi));
+    let (first, last) = ((a.lo - crest) * TAU.recip(), (a.hi - crest) * TAU.recip());
+    let passes = |from: f64| math::rounded_shift(first - from) != math::rounded_shift(last - from);
+    let (lo, hi) = (near(a.lo), near(a.hi));
     let room = |v: f64| v.abs() * SLOP + 1e-18;
-    let least = lo.min(hi);
-    let greatest = lo.max(hi);
+    let (least, greatest) = if lo < hi { (lo, hi) } else { (hi, lo) };
     Interval::new(
-        if passes(crest + PI) { -1.0 } else { (least - room(least)).max(-1.0) },
-        if passes(crest) { 1.0 } else { (greatest + room(greatest)).min(1.0) },
+        if passes(1.0) { -1.0 } else { (least - room(least)).max(-1.0) },
+        if passes(0.5) { 1.0 } else { (greatest + room(greatest)).min(1.0) },
     )
 }
 

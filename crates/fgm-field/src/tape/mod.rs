@@ -10,7 +10,7 @@ use std::thread::LocalKey;
 
 use fgm_core::Interval;
 
-use crate::expr::graph::{Node, NodeId, VARS, needed};
+use crate::expr::graph::{Node, NodeId, needed};
 use op::{Binary, Unary};
 
 /// The number of a register.
@@ -65,8 +65,8 @@ pub(crate) enum Instr {
 #[derive(Clone, Debug)]
 pub(crate) struct Tape {
     instrs: Vec<Instr>,
-    /// The register of each variable that is read.
-    inputs: [Option<Reg>; VARS],
+    /// The variables that are read, by their index, and their registers.
+    inputs: Vec<(usize, Reg)>,
     result: Reg,
     registers: usize,
     /// The value, where it depends on nothing.
@@ -80,7 +80,6 @@ const MANY: usize = 32;
 
 thread_local! {
     static NUMBERS: Cell<Vec<f64>> = const { Cell::new(Vec::new()) };
-    static INTERVALS: Cell<Vec<Interval>> = const { Cell::new(Vec::new()) };
     static CHUNKS: Cell<Vec<chunk::Lanes>> = const { Cell::new(Vec::new()) };
 }
 
@@ -107,28 +106,25 @@ impl Tape {
         Compiler::new(nodes, root).run()
     }
 
-    /// Whether it reads the variable with this index.
-    pub(crate) fn reads(&self, var: usize) -> bool {
-        self.inputs[var].is_some()
-    }
-
     /// The value for these variables.
-    pub(crate) fn eval(&self, vars: &[f64; VARS]) -> f64 {
+    pub(crate) fn eval(&self, var: impl Fn(usize) -> f64) -> f64 {
         if self.registers <= FEW {
-            self.eval_in(vars, &mut [0.0; FEW])
+            self.eval_in(var, &mut [0.0; FEW])
         } else if self.registers <= MANY {
-            self.eval_in(vars, &mut [0.0; MANY])
+            self.eval_in(var, &mut [0.0; MANY])
         } else {
-            borrow_registers(&NUMBERS, self.registers, 0.0, |r| self.eval_in(vars, r))
+            borrow_registers(&NUMBERS, self.registers, 0.0, |r| self.eval_in(var, r))
         }
     }
 
-    fn eval_in(&self, vars: &[f64; VARS], regs: &mut [f64]) -> f64 {
-        for (register, var) in self.inputs.iter().zip(vars) {
-            if let Some(register) = register {
-                regs[usize::from(*register)] = *var;
-            }
+    fn eval_in(&self, var: impl Fn(usize) -> f64, regs: &mut [f64]) -> f64 {
+        for &(index, register) in &self.inputs {
+            regs[usize::from(register)] = var(index);
         }
+        self.run(regs)
+    }
+
+    fn run(&self, regs: &mut [f64]) -> f64 {
         for instr in &self.instrs {
             let get = |r: Reg| regs[usize::from(r)];
             let (out, value) = match *instr {
@@ -146,32 +142,37 @@ impl Tape {
     }
 
     /// A range that holds every value for variables in these ranges.
-    pub(crate) fn bounds(&self, vars: &[Interval; VARS]) -> Interval {
+    pub(crate) fn bounds(&self, var: impl Fn(usize) -> Interval) -> Interval {
         if self.registers <= FEW {
-            self.bounds_in(vars, &mut [Interval::EVERYTHING; FEW])
+            self.bounds_in(var, &mut [0.0; 2 * FEW])
         } else if self.registers <= MANY {
-            self.bounds_in(vars, &mut [Interval::EVERYTHING; MANY])
+            self.bounds_in(var, &mut [0.0; 2 * MANY])
         } else {
-            borrow_registers(&INTERVALS, self.registers, Interval::EVERYTHING, |r| {
-                self.bounds_in(vars, r)
-            })
+            borrow_registers(&NUMBERS, 2 * self.registers, 0.0, |r| self.bounds_in(var, r))
         }
     }
 
-    fn bounds_in(&self, vars: &[Interval; VARS], regs: &mut [Interval]) -> Interval {
-        for (register, var) in self.inputs.iter().zip(vars) {
-            if let Some(register) = register {
-                regs[usize::from(*register)] = interval::checked(*var);
-            }
+    fn bounds_in(&self, var: impl Fn(usize) -> Interval, ends: &mut [f64]) -> Interval {
+        // Lower and upper ends apart: a pair just written one by one and read as one waits for
+        // the memory.
+        let (lo, hi) = ends.split_at_mut(ends.len() / 2);
+        for &(index, register) in &self.inputs {
+            let range = interval::checked(var(index));
+            lo[usize::from(register)] = range.lo;
+            hi[usize::from(register)] = range.hi;
         }
+        self.run_bounds(lo, hi)
+    }
+
+    fn run_bounds(&self, lo: &mut [f64], hi: &mut [f64]) -> Interval {
         for instr in &self.instrs {
-            let get = |r: Reg| regs[usize::from(r)];
-            let (out, value) = match *instr {
+            let get = |r: Reg| Interval::new(lo[usize::from(r)], hi[usize::from(r)]);
+            let (out, range) = match *instr {
                 Instr::Const { out, value } => (out, interval::constant(value)),
                 Instr::Unary { op, out, a } => (out, interval::unary(op, get(a))),
                 Instr::Binary { op, out, a, b } => (out, interval::binary(op, get(a), get(b))),
                 Instr::Right { op, out, a, value } => {
-                    (out, interval::binary(op, get(a), interval::constant(value)))
+                    (out, interval::binary_right(op, get(a), value))
                 }
                 Instr::Left { op, out, value, b } => {
                     (out, interval::binary(op, interval::constant(value), get(b)))
@@ -179,9 +180,11 @@ impl Tape {
                 Instr::Powi { out, a, n } => (out, interval::powi(get(a), n)),
                 Instr::Select { out, c, a, b } => (out, interval::select(get(c), get(a), get(b))),
             };
-            regs[usize::from(out)] = value;
+            lo[usize::from(out)] = range.lo;
+            hi[usize::from(out)] = range.hi;
         }
-        regs[usize::from(self.result)]
+        let result = usize::from(self.result);
+        Interval::new(lo[result], hi[result])
     }
 
     /// The values at up to [`chunk::CHUNK`] points, one an element of `out`; `load` writes each
@@ -192,10 +195,8 @@ impl Tape {
             return;
         }
         borrow_registers(&CHUNKS, self.registers, chunk::NO_LANES, |regs| {
-            for (var, register) in self.inputs.iter().enumerate() {
-                if let Some(register) = register {
-                    load(var, &mut regs[usize::from(*register)].0[..out.len()]);
-                }
+            for &(index, register) in &self.inputs {
+                load(index, &mut regs[usize::from(register)].0[..out.len()]);
             }
             chunk::run(&self.instrs, regs, out.len());
             out.copy_from_slice(&regs[usize::from(self.result)].0[..out.len()]);
@@ -228,7 +229,7 @@ impl<'a> Compiler<'a> {
         }
         let tape = Tape {
             instrs: Vec::new(),
-            inputs: [None; VARS],
+            inputs: Vec::new(),
             result: 0,
             registers: 0,
             constant: crate::expr::graph::constant_of(nodes[root as usize]),
@@ -242,7 +243,7 @@ impl<'a> Compiler<'a> {
         for (id, node) in self.nodes.iter().enumerate().take(self.needed.len()) {
             if let (true, Node::Var(var)) = (self.needed[id], node) {
                 self.register[id] = self.take();
-                self.tape.inputs[var.index()] = Some(self.register[id]);
+                self.tape.inputs.push((var.index(), self.register[id]));
             }
         }
         for id in 0..self.needed.len() {

@@ -1,7 +1,7 @@
 //! Random formulas: a tree, its text, and a plain evaluation that shares nothing with the crate.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::panic)]
 
-use fgm_core::{Bounds3, Field, Interval, PlanarField, Point3};
+use fgm_core::{Bounds3, Field, Interval, Point3};
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
