@@ -218,6 +218,25 @@ fn regions_by_hand() {
 }
 
 #[test]
+fn many_regions_agree() {
+    // More than are kept while looking for the nearest.
+    let regions = (0..40).map(|i| {
+        let by = DAffine3::from_translation(Point3::X * f64::from(i));
+        let ball: SharedField = Arc::new(Sphere { radius: 1.0 });
+        Region {
+            geometry: Arc::new(fgm_field::Transformed::new(ball, by).unwrap()),
+            fractions: Arc::new(VolumeFractions::uniform(2, i as usize % 2).unwrap()),
+        }
+    });
+    let material = MaterialRegions::new(regions.collect()).unwrap();
+    for x in [0.2, 3.2, 16.0, 31.7, 50.0] {
+        let cell = Bounds3::new(Point3::new(x, -0.1, -0.1), Point3::new(x + 0.2, 0.1, 0.1));
+        check_material(&material, &cell).unwrap();
+        assert!(x == 3.2 || material.fraction(0).bounds(&cell).width() == 0.0, "at {x}");
+    }
+}
+
+#[test]
 fn blurs_by_hand() {
     let material: SharedMaterial = Arc::new(halves());
     let blurred = Convolved::boxed(Arc::clone(&material), [4, 1, 1], Point3::ONE).unwrap();

@@ -296,6 +296,13 @@ impl MaterialField for VolumeFractions {
     }
 
     fn mixture(&self, p: Point3) -> Result<Mixture, MaterialError> {
+        // Of two materials one fraction tells the other; it is NaN where there is no mixture.
+        if let [first, _] = &self.fractions[..] {
+            let fraction = first.eval(p);
+            if let Ok(mixture) = Mixture::from_weights(&[fraction, 1.0 - fraction]) {
+                return Ok(mixture);
+            }
+        }
         let mut weights = [0.0; MAX_MATERIALS];
         for (weight, field) in weights.iter_mut().zip(&self.weights) {
             *weight = field.eval(p);

@@ -162,16 +162,27 @@ impl<S: Sampled> Sampled for Piecewise<S> {
 
     /// The ranges of all regions that may be the nearest somewhere in the cell, together.
     fn range(&self, cell: &S::Cell) -> Interval {
-        // Above this distance a region is nowhere the nearest. Where nothing is known there may be
-        // no nearest region at all.
-        let greatest =
-            self.geometries.iter().map(|g| g.range(cell).hi).fold(f64::INFINITY, f64::min);
+        // Asked once for each geometry, unless there are very many.
+        let mut kept = [Interval::EVERYTHING; 16];
+        let mut greatest = f64::INFINITY;
+        for (i, geometry) in self.geometries.iter().enumerate() {
+            let range = geometry.range(cell);
+            greatest = greatest.min(range.hi);
+            if let Some(slot) = kept.get_mut(i) {
+                *slot = range;
+            }
+        }
+        // Above the least upper end a region is nowhere the nearest. Without one there may be no
+        // nearest region at all.
         if greatest == f64::INFINITY {
             return Interval::EVERYTHING;
         }
-        let near = self.geometries.iter().zip(&self.values);
-        near.filter(|(geometry, _)| geometry.range(cell).lo <= greatest)
-            .map(|(_, value)| value.range(cell))
+        let lower_end = |i: usize| match kept.get(i) {
+            Some(range) => range.lo,
+            None => self.geometries[i].range(cell).lo,
+        };
+        let near = self.values.iter().enumerate().filter(|(i, _)| lower_end(*i) <= greatest);
+        near.map(|(_, value)| value.range(cell))
             .reduce(|a, b| a.union(&b))
             .unwrap_or(Interval::EVERYTHING)
     }
