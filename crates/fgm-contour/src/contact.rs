@@ -21,7 +21,8 @@ impl Segment {
         (self.a == other.a && self.b == other.b) || (self.a == other.b && self.b == other.a)
     }
 
-    /// Whether the two share more than the end point at which one goes on from the other.
+    /// Whether the two, whose boxes meet, share more than the end point at which one goes on from
+    /// the other.
     fn touches(&self, other: &Self) -> bool {
         let (a, b, c, d) = (self.a, self.b, other.a, other.b);
         if self.coincides(other) {
@@ -43,6 +44,11 @@ impl Segment {
         }
         let opposite = |s: f64, t: f64| s == 0.0 || t == 0.0 || (s > 0.0) != (t > 0.0);
         opposite(side(a, b, c), side(a, b, d)) && opposite(side(c, d, a), side(c, d, b))
+    }
+
+    /// Whether the two cross or touch, other than as neighbours at their joint.
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        self.boxes_meet(other) && self.touches(other)
     }
 
     fn boxes_meet(&self, other: &Self) -> bool {
@@ -230,7 +236,7 @@ impl Contacts {
 fn compare(segments: &[Segment], a: &Run, b: &Run, found: &mut impl FnMut(usize, usize)) {
     for (k, s) in a.reaching(segments, b) {
         for (l, t) in b.reaching(segments, a) {
-            if s.boxes_meet(t) && s.touches(t) {
+            if s.meets(t) {
                 found(k, l);
             }
         }
@@ -304,7 +310,7 @@ mod tests {
             let mut expected = Vec::new();
             for (k, s) in segments.iter().enumerate() {
                 for (l, t) in segments.iter().enumerate().skip(k + 1) {
-                    if s.boxes_meet(t) && s.touches(t) {
+                    if s.meets(t) {
                         expected.push((k, l));
                     }
                 }

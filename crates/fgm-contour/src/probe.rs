@@ -167,7 +167,7 @@ impl Probe<'_> {
     fn runs_along(&self, p: Point2, q: Point2) -> bool {
         let Some(along) = (q - p).try_normalize() else { return true };
         // Less on a short side, which would otherwise be left across an acute corner.
-        let off = (2.0 * self.options.sag).max(CORNER_TOLERANCE).min(0.1 * p.distance(q));
+        let off = (2.0 * self.options.sag).max(CORNER_TOLERANCE).min(0.04 * p.distance(q));
         let left = along.perp() * off;
         [0.25, 0.5, 0.75].into_iter().all(|t| {
             let on = p.lerp(q, t);

@@ -19,7 +19,8 @@ struct Suspect {
     slot: usize,
     a: Point2,
     b: Point2,
-    /// How fast the field changes across the lattice edges at the ends, a mm.
+    /// How fast the field changes across the lattice edges at the ends, a mm; 0 where nearness to
+    /// the curve says nothing.
     slope: f64,
 }
 
@@ -105,7 +106,9 @@ impl Refiner {
                     let (p, q) = node.ends(task.lattice);
                     (node.values[1] - node.values[0]).abs() / (q - p).element_sum()
                 });
-                let slope = slope[0].max(slope[1]);
+                // At a narrow corner the middle may be near the curve though the tip is not.
+                let returns = before.zip(after).is_some_and(|(p, q)| (a - p).dot(q - b) < 0.0);
+                let slope = if options.sharp && returns { 0.0 } else { slope[0].max(slope[1]) };
                 self.suspects.push(Suspect {
                     chain: index as u32,
                     slot: chain.from + k,
@@ -144,6 +147,10 @@ impl Refiner {
             let probe = Probe { field: task.field, level, options };
             probe.refine(suspect.a, suspect.b, &mut self.points);
             let to = keep_inside(&mut self.points, from, &task.lattice.window());
+            if !is_simple(suspect.a, &self.points[from..to], suspect.b) {
+                self.points.truncate(from);
+                continue;
+            }
             if to > from {
                 // Off the cell's border, on which another line's addition may lie.
                 let cell = task.lattice.cell_around(self.middles[k]);
@@ -255,6 +262,16 @@ fn keep_inside(points: &mut Vec<Point2>, from: usize, window: &Bounds2) -> usize
     to
 }
 
+/// Whether the line from `a` through some points to `b` neither crosses nor touches itself.
+fn is_simple(a: Point2, points: &[Point2], b: Point2) -> bool {
+    let from = || [a].into_iter().chain(points.iter().copied());
+    let to = points.iter().copied().chain([b]);
+    let segment = |(a, b)| Segment { a, b, tag: 0 };
+    let segments: Vec<Segment> =
+        if points.len() > 1 { from().zip(to).map(segment).collect() } else { Vec::new() };
+    segments.iter().enumerate().all(|(k, s)| !segments[k + 1..].iter().any(|t| s.meets(t)))
+}
+
 /// The segments of a chain: slot of the first node, and both ends.
 fn slots<'a>(
     chain: &'a Chain,
@@ -315,4 +332,29 @@ fn holds(polygon: &[Point2], p: Point2, limit: f64) -> bool {
         inside != (spans && (side(a, b, p) > 0.0) == (b.y > a.y))
     });
     inside || edges().any(|(a, b)| distance_squared(p, a, b) <= limit * limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A field wild enough once gave vertices that turned back through their own first step.
+    #[test]
+    fn additions_that_cross_themselves_are_known() {
+        let point = |p: (f64, f64)| Point2::new(p.0, p.1);
+        let check = |points: &[(f64, f64)], simple: bool| {
+            let inner: Vec<Point2> = points.iter().copied().map(point).collect();
+            assert_eq!(
+                is_simple(point((0.0, 0.0)), &inner, point((4.0, 0.0))),
+                simple,
+                "{points:?}"
+            );
+        };
+        check(&[], true);
+        check(&[(2.0, 1.0)], true);
+        check(&[(1.0, 1.0), (3.0, 1.0)], true);
+        check(&[(3.0, 1.0), (1.0, 1.0)], false);
+        check(&[(1.0, 0.0), (2.0, 0.0), (3.0, 0.0)], true);
+        check(&[(2.0, 0.0), (1.0, 0.0)], false);
+    }
 }

@@ -126,6 +126,34 @@ fn corners_of_boxes_stars_and_their_combinations_are_sharp() {
     }
 }
 
+/// A row of samples passes 0.004 mm beside the axis of a narrow tip: one of its sides is 0.02 mm
+/// long, and what lies beside that is soon beyond the other side.
+#[test]
+fn a_tip_with_one_very_short_side_is_found() {
+    let at = Point2::new(0.0, -0.003_884_178_303_496_089_7);
+    let (outer, depth) = (6.255_749_087_484_714, 0.334_598_982_859_764_8);
+    let found = region(&|p: Point2| star(p - at, 8.0, outer, outer * depth, 0.0), 10.0);
+    assert!(nearest(&found, at + Point2::new(outer, 0.0)) < 0.01);
+}
+
+/// Tips that end 0.01 mm beyond a row of samples: the chords around them are nearer to the curve
+/// than the sag all the way, but not the tips.
+#[test]
+fn tips_that_barely_pass_a_row_of_samples_are_found() {
+    let cases = [
+        (0.431_675_802_262_028_4, 0.782_242_349_730_519, 8.121_744_327_473_337),
+        (0.005_655_109_622_022_683, 4.375_313_321_278_718, 8.972_309_127_587_753),
+    ];
+    for (y, turn, outer) in cases {
+        let at = Point2::new(0.0, y);
+        let found = region(&|p: Point2| star(p - at, 7.0, outer, outer * 0.3, turn), 10.0);
+        for tip in 0..7 {
+            let tip = at + Point2::from_angle(turn + f64::from(tip) * TAU / 7.0) * outer;
+            assert!(nearest(&found, tip) < 0.01, "{tip}: {}", nearest(&found, tip));
+        }
+    }
+}
+
 #[test]
 fn gear_teeth_have_their_corners() {
     // Teeth between two radii with straight, radial flanks: curved and straight sides meet.
