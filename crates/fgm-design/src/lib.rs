@@ -5,13 +5,11 @@
 //! | item | what it is for |
 //! |---|---|
 //! | [`load`] | a file to a design, whatever its format |
-//! | [`parse_vcad`] | a text in the [.vcad language][vcad] to a design |
+//! | [`parse_vcad`] | a text in the .vcad language (`docs/vcad.md` in the repository) to a design |
 //! | [`LoadOptions`] | volume fractions for a mesh, the size to scale to |
 //! | [`Loaded`] | the [`Design`](fgm_field::Design) and its [`Warning`]s |
 //! | [`read_stl`], [`read_obj`], [`read_3mf`] | bytes to a [`TriangleMesh`](fgm_core::TriangleMesh) |
 //! | [`DesignError`], [`Problem`], [`Location`] | what went wrong, and where |
-//!
-//! [vcad]: https://docs.rs/crate/fgm-design/latest/source/README.md
 //!
 //! A mesh that stands under one `fgrade`, moved, turned and scaled as it may be, stays a mesh and
 //! can be cut exactly; a mesh combined with anything else becomes a distance.
@@ -58,3 +56,7 @@ pub use problem::{
 };
 pub use source::Location;
 pub use warning::Warning;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

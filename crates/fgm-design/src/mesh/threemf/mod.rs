@@ -113,14 +113,15 @@ impl Build<'_> {
         }
         self.load(part)?;
         let model = &self.parts[part];
-        let Some(object) = model.objects.iter().find(|o| o.id == instance.object) else {
+        let Some(object) = model.object(instance.object) else {
             return Err(self.error(part, format!("no object {}", instance.object)));
         };
         if object.support {
             return Ok(());
         }
         let transform = outer * instance.transform;
-        self.triangles += object.triangles.len();
+        // Vertices cost time too, even if no triangle uses them.
+        self.triangles += object.triangles.len().max(object.vertices.len());
         if self.triangles > MAX_TRIANGLES {
             return Err(DesignError::file(self.file, Problem::TooManyTriangles));
         }

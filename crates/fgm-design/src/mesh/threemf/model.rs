@@ -24,8 +24,17 @@ const UNITS: [(&str, f64); 6] = [
 pub(super) struct Model {
     /// Millimetres in a unit.
     pub(super) unit: f64,
+    /// By their ids.
     pub(super) objects: Vec<Object>,
     pub(super) items: Vec<Instance>,
+}
+
+impl Model {
+    /// The object with this id; the first where a file uses one twice.
+    pub(super) fn object(&self, id: u32) -> Option<&Object> {
+        let at = self.objects.partition_point(|o| o.id < id);
+        self.objects.get(at).filter(|o| o.id == id)
+    }
 }
 
 #[derive(Debug, Default)]
@@ -80,6 +89,7 @@ pub(super) fn parse(text: &str, part: &str, file: &Path) -> Result<Model, Design
     if parser.prefix.is_none() {
         return Err(at(0, "no `model` element".to_string()));
     }
+    parser.model.objects.sort_by_key(|o| o.id);
     Ok(parser.model)
 }
 
