@@ -225,7 +225,7 @@ fn damaged_stl_files() {
             "<stl>: not an STL file: neither 84 bytes of a binary one nor the word `solid`",
         ),
         (
-            text[..cut].as_bytes().to_vec(),
+            text.as_bytes()[..cut].to_vec(),
             "<stl>:12:23: expected `vertex`, found the end of the file",
         ),
         (
