@@ -56,7 +56,8 @@ impl Output {
             // Less the umask, as for any file a program makes.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder).map_err(fail)?;
+        // Without the temporary name, which would mean nothing to the user.
+        let file = builder.tempfile_in(folder).map_err(|e| fail(e.kind().into()))?;
         Ok(Self::File { path, file: BufWriter::with_capacity(BUFFER, file) })
     }
 

@@ -6,18 +6,6 @@ use toml::{Table, Value};
 
 use crate::failure::Failure;
 
-/// Lays `over` over `under`, table by table.
-pub(crate) fn merge(under: &mut Table, over: Table) {
-    for (key, value) in over {
-        match (under.get_mut(&key), value) {
-            (Some(Value::Table(below)), Value::Table(above)) => merge(below, above),
-            (_, value) => {
-                under.insert(key, value);
-            }
-        }
-    }
-}
-
 /// Puts `value` at `section.key`, making tables on the way.
 pub(crate) fn put(table: &mut Table, path: &[&str], value: Value) {
     let [section @ .., key] = path else { return };
@@ -66,13 +54,6 @@ pub(crate) fn read<T>(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn later_tables_win_key_by_key() {
-        let mut under: Table = "[a]\nx = 1\ny = 2".parse().unwrap();
-        merge(&mut under, "[a]\ny = 3\n[b]\nz = 4".parse().unwrap());
-        assert_eq!(under, "[a]\nx = 1\ny = 3\n[b]\nz = 4".parse().unwrap());
-    }
 
     #[test]
     fn words_need_no_quotes() {

@@ -25,9 +25,13 @@ fn snippet(place: &Place, out: &mut impl Write) -> std::io::Result<()> {
     let end = place.span.end.clamp(place.span.start, place.text.len());
     let span = (place.file.as_str(), place.span.start.min(end)..end);
     let color = std::io::stderr().is_terminal();
+    let mut report = Vec::new();
     Report::build(ReportKind::Error, span.clone())
         .with_config(Config::default().with_color(color).with_index_type(IndexType::Byte))
         .with_label(Label::new(span).with_message(&place.label))
         .finish()
-        .write((place.file.as_str(), Source::from(place.text.as_str())), out)
+        .write((place.file.as_str(), Source::from(place.text.as_str())), &mut report)?;
+    // Its first line is a heading; the message above is one already.
+    let heading = report.iter().position(|&b| b == b'\n').map_or(0, |end| end + 1);
+    out.write_all(&report[heading..])
 }

@@ -37,7 +37,7 @@ pub fn point_at(path: &[Point2], at: f64) -> Point2 {
 
 /// Appends to `out` the part of a path between two parameters, its end points included.
 pub fn slice_path(path: &[Point2], from: f64, to: f64, out: &mut Vec<Point2>) {
-    if path.len() < 2 || !(from < to) {
+    if path.len() < 2 || from.is_nan() || to.is_nan() || from >= to {
         return;
     }
     out.push(point_at(path, from));

@@ -1,7 +1,9 @@
 use fgm_arrange::{ArrangeOptions, Arrangement, Chain, FaceId};
-use fgm_contour::{ContourOptions, isolines};
-use fgm_core::{Band, Bounds2, MaterialField, Point2, Polygon, Polyline, Sectioner, Span};
-use fgm_palette::Palette;
+use fgm_contour::{ContourOptions, LevelLines, isolines};
+use fgm_core::{
+    Band, Bounds2, Interval, MaterialField, PlanarField, Point2, Polygon, Polyline, Sectioner, Span,
+};
+use fgm_palette::{Boundary, Palette};
 
 use crate::{
     error::SliceError,
@@ -37,6 +39,7 @@ impl GradedLayer {
         let (z, palette) = (layer.cut, job.palette);
         let material = job.design.fractions.as_ref();
         let boundaries = timed(&mut seconds.contour, || {
+            check_material(region, z, material)?;
             palette_boundaries(region, z, material, palette, &job.isolines)
         })?;
         timed(&mut seconds.arrange, || {
@@ -74,6 +77,43 @@ impl GradedLayer {
     }
 }
 
+/// Step of the samples at which the material is looked at, mm, and the fewest along a side.
+const CHECK_STEP: f64 = 2.0;
+const CHECK_LEAST: usize = 16;
+
+/// That the material is known all over the region, on a grid of samples.
+///
+/// The isolines pass over what is no number, since a design need not say what lies outside it;
+/// inside it, such a place would be printed in a neighbour's colour.
+fn check_material(
+    region: &[Polygon],
+    z: f64,
+    material: &dyn MaterialField,
+) -> Result<(), SliceError> {
+    let fraction = material.fraction(0).at_z(z);
+    let mut values = Vec::new();
+    for polygon in region {
+        let bounds = polygon.bounds();
+        let count = |side: f64| ((side / CHECK_STEP).ceil() as usize).max(CHECK_LEAST);
+        let (columns, rows) = (count(bounds.size().x), count(bounds.size().y));
+        let step = bounds.size() / Point2::new(columns as f64, rows as f64);
+        let row = |j: usize| {
+            let place = move |i: usize| Point2::new(i as f64 + 0.5, j as f64 + 0.5);
+            (0..columns).map(move |i| bounds.min + place(i) * step)
+        };
+        let points: Vec<Point2> = (0..rows).flat_map(row).collect();
+        values.clear();
+        values.resize(points.len(), 0.0);
+        fraction.eval_into(&points, &mut values);
+        for (p, value) in points.iter().zip(&values) {
+            if value.is_nan() && polygon.contains(*p) {
+                material.mixture(p.extend(z))?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The lines at which the palette changes, inside the region's bounds.
 fn palette_boundaries(
     region: &[Polygon],
@@ -88,18 +128,44 @@ fn palette_boundaries(
         return Ok(lines);
     }
     let window = bounds.grown(options.cell);
-    for index in 0..palette.materials() {
-        let levels = palette.levels(index);
-        if levels.is_empty() {
-            continue;
-        }
-        let fraction = material.fraction(index).at_z(z);
-        for level in isolines(fraction.as_ref(), &window, levels, options)? {
+    let mut add = |found: Vec<LevelLines>| {
+        for level in found {
             lines.extend(level.rings.into_iter().map(|ring| (true, ring.points)));
             lines.extend(level.lines.into_iter().map(|Polyline { points }| (false, points)));
         }
+    };
+    for index in 0..palette.materials() {
+        let levels = palette.levels(index);
+        if !levels.is_empty() {
+            let fraction = material.fraction(index).at_z(z);
+            add(isolines(fraction.as_ref(), &window, levels, options)?);
+        }
+    }
+    for boundary in palette.boundaries() {
+        if let Boundary::Difference { a, b, by } = *boundary {
+            let difference =
+                Difference { a: material.fraction(a).at_z(z), b: material.fraction(b).at_z(z) };
+            add(isolines(&difference, &window, &[by], options)?);
+        }
     }
     Ok(lines)
+}
+
+/// How much more there is of one material than of another.
+struct Difference<'a> {
+    a: Box<dyn PlanarField + 'a>,
+    b: Box<dyn PlanarField + 'a>,
+}
+
+impl PlanarField for Difference<'_> {
+    fn eval(&self, p: Point2) -> f64 {
+        self.a.eval(p) - self.b.eval(p)
+    }
+
+    fn bounds(&self, cell: &Bounds2) -> Interval {
+        let (a, b) = (self.a.bounds(cell), self.b.bounds(cell));
+        Interval::new(a.lo - b.hi, a.hi - b.lo)
+    }
 }
 
 fn arrange(

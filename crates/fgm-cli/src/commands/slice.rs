@@ -18,7 +18,6 @@ use crate::{
     output::Output,
     overrides,
     progress::Terminal,
-    show,
 };
 
 /// Slices a design into a file of G-code.
