@@ -4,7 +4,9 @@
 use fgm_core::{Polygon, Role, bead};
 
 use crate::{
-    FaceFill, GapOptions, InfillOptions, Inset, Path, Pattern, gap_fill, infill,
+    FaceFill, GapOptions, InfillOptions, Inset, Path, Pattern,
+    gap::fill_thin,
+    infill,
     walls::{loops, peel::peel},
 };
 
@@ -53,7 +55,7 @@ impl AgainstOptions {
 /// bead then lies half its width inside the true outline.
 ///
 /// What the loops leave, and faces too thin for loops, takes one or two beads of varying width
-/// ([`gap_fill`]). Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
+/// ([`gap_fill`](crate::gap_fill)). Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
 pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) -> Vec<Path> {
     let AgainstOptions { width, height, .. } = *options;
     let spacing = bead::spacing(width, height);
@@ -75,7 +77,7 @@ pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) ->
         out.extend(infill(&peel.rest, &lines, inset));
     }
     let AgainstOptions { min_width, max_width, .. } = *options;
-    out.extend(gap_fill(&peel.thin, &GapOptions { width, height, min_width, max_width }));
+    out.extend(fill_thin(&peel.thin, &GapOptions { width, height, min_width, max_width }, 0.0));
     out
 }
 

@@ -122,3 +122,36 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn lumps_side_by_side_share_a_loop() {
+    // Seven loops, each around its own lump, once lay on top of each other between the lumps.
+    let wobble = |a: f64| 1.5887 * (1.0 + 0.0882 * (7.0 * a).sin());
+    let mut face = Polygon::simple(radial(Point2::new(100.0, -50.0), 160, wobble));
+    let mut hole = radial(Point2::new(100.0, -50.0), 100, |a| wobble(a) * 0.3812);
+    hole.reverse();
+    face.holes.push(hole);
+    let (paths, volume) = fill(&face);
+    assert!((volume - 1.0).abs() < 0.03, "{volume}");
+    let cover = cover(&[face], &paths, 0.05);
+    assert!(cover.covered > 0.92 && cover.doubled < 0.02, "{cover:?}");
+}
+
+#[test]
+fn a_neck_between_corners_is_filled() {
+    let h = simple(&[
+        (0.0, 0.0),
+        (10.0, 0.0),
+        (10.0, 4.6),
+        (20.0, 4.6),
+        (20.0, 0.0),
+        (30.0, 0.0),
+        (30.0, 10.0),
+        (20.0, 10.0),
+        (20.0, 5.4),
+        (10.0, 5.4),
+        (10.0, 10.0),
+        (0.0, 10.0),
+    ]);
+    check("h", &h);
+}

@@ -1,7 +1,9 @@
 //! Beads of varying width along the middle of what is too thin for loops.
 
 mod chains;
+mod flip;
 mod mesh;
+mod ribbon;
 
 use fgm_core::{Point2, Polygon, Role, bead};
 
@@ -39,18 +41,34 @@ pub struct GapOptions {
 /// cross the region, an approximation of the medial axis that is exact between parallel sides.
 /// Meant for regions up to about three beads thick; thicker ones are filled, but not well.
 pub fn gap_fill(region: &[Polygon], options: &GapOptions) -> Vec<Path> {
-    let fill = Fill::new(options);
+    fill_thin(&shaved(region, &ClipperInset::default()), options, HAIR)
+}
+
+/// A hair less: rings that touch come apart, spikes of no width vanish.
+pub(crate) fn shaved(region: &[Polygon], inset: &dyn Inset) -> Vec<Polygon> {
+    inset.inset(region, HAIR)
+}
+
+/// [`gap_fill`] of simple polygons, `hair` having been shaved off them.
+pub(crate) fn fill_thin(region: &[Polygon], options: &GapOptions, hair: f64) -> Vec<Path> {
+    let fill = Fill::new(options, hair);
     let mut out = Vec::new();
-    // A hair less: rings that touch come apart, spikes of no width vanish.
-    let inset = ClipperInset::default();
-    for polygon in inset.inset(region, HAIR) {
+    for polygon in region {
         let before = out.len();
-        let mesh = mesh::Mesh::new(&polygon, 1.5 * fill.spacing);
+        let mesh = mesh::Mesh::new(polygon, 1.5 * fill.spacing, 8.0 * fill.spacing);
+        if (mesh.area() - polygon.area()).abs() > 1e-3 * polygon.area() {
+            // The border touches itself.
+            if hair == 0.0 {
+                let polygon = shaved(std::slice::from_ref(polygon), &ClipperInset::default());
+                out.extend(fill_thin(&polygon, options, HAIR));
+            }
+            continue;
+        }
         for chain in chains::chains(mesh) {
             fill.chain(&chain, &mut out);
         }
         if out.len() == before {
-            fill.pin(polygon, &inset, &mut out);
+            fill.pin(polygon, &mut out);
         }
     }
     out
@@ -63,15 +81,16 @@ struct Fill {
     round: f64,
     least: f64,
     most: f64,
+    hair: f64,
 }
 
 impl Fill {
-    fn new(options: &GapOptions) -> Self {
+    fn new(options: &GapOptions, hair: f64) -> Self {
         let spacing = bead::spacing(options.width, options.height);
         let round = options.width - spacing;
         let least = bead::spacing(options.min_width, options.height);
         let most = bead::spacing(options.max_width, options.height).max(least);
-        Self { spacing, round, least, most }
+        Self { spacing, round, least, most, hair }
     }
 
     /// How many beads fill a thickness; 0 where it is too thin for one.
@@ -85,9 +104,11 @@ impl Fill {
     }
 
     /// A small loop for what has no middle line: as thick one way as the other.
-    fn pin(&self, polygon: Polygon, inset: &ClipperInset, out: &mut Vec<Path>) {
+    fn pin(&self, polygon: &Polygon, out: &mut Vec<Path>) {
         let area = polygon.area();
-        for ring in inset.inset(&[polygon], 0.5 * self.least).into_iter().map(|p| p.outer) {
+        let polygon = std::slice::from_ref(polygon);
+        let inner = ClipperInset::default().inset(polygon, 0.5 * self.least);
+        for ring in inner.into_iter().map(|p| p.outer) {
             let fills = (area / ring.length()).clamp(self.least, self.most);
             out.push(Path {
                 points: ring.points,
@@ -105,7 +126,7 @@ impl Fill {
             return;
         }
         let mut thickness = chain.smooth_thickness(2.0 * self.spacing);
-        thickness.iter_mut().for_each(|t| *t += 2.0 * HAIR);
+        thickness.iter_mut().for_each(|t| *t += 2.0 * self.hair);
         for (from, to, beads) in self.runs(chain, &thickness) {
             if beads == 0 {
                 continue;

@@ -65,3 +65,62 @@ fn pins_are_printed() {
         assert!(share > 0.5 && share < 1.1, "{radius}: {share} {paths:?}");
     }
 }
+
+/// The quick way and the sure way to triangulate give the same triangles.
+#[test]
+fn ribbons_flipped_are_delaunay() {
+    let fork = simple(&[
+        (0.0, 0.0),
+        (4.0, 0.3),
+        (8.0, -1.5),
+        (8.2, -1.0),
+        (4.6, 0.6),
+        (8.1, 2.4),
+        (7.8, 2.9),
+        (4.1, 0.9),
+        (0.1, 0.6),
+    ]);
+    let wave = |x: f64| (x * 0.9).sin();
+    let shapes = [
+        rectangle(0.0, 0.0, 10.0, 0.5),
+        band(20.0, wave, |x| wave(x) + 0.4 + 0.2 * (x * 1.3).cos()),
+        band(20.0, |_| 0.0, |x| 0.1 + 0.04 * x),
+        fork,
+    ];
+    for (i, shape) in shapes.iter().enumerate() {
+        let quick = mesh::Mesh::new(shape, 0.4, 100.0);
+        let sure = mesh::Mesh::new(shape, 0.4, 0.0);
+        assert_eq!(quick.triangles.len(), sure.triangles.len(), "{i}");
+        assert!((quick.area() - shape.area()).abs() < 1e-9, "{i}");
+        let key = |m: &mesh::Mesh| -> f64 {
+            m.triangles.iter().map(|t| t.center().length_squared() * t.area()).sum()
+        };
+        assert!((key(&quick) - key(&sure)).abs() < 1e-3 * key(&sure), "{i}");
+        for (number, triangle) in (0u32..).zip(&quick.triangles) {
+            assert!(triangle.area() > 0.0);
+            for neighbour in triangle.across.into_iter().filter(|&n| n != mesh::BORDER) {
+                assert!(quick.triangles[neighbour as usize].edge_to(number).is_some(), "{i}");
+            }
+        }
+    }
+}
+
+#[test]
+fn borders_that_touch_themselves_are_not_filled_across() {
+    // Two thin strips that meet in a point, with a spike of no width.
+    let bow = [simple(&[
+        (0.0, 0.0),
+        (5.0, 0.0),
+        (5.0, 0.4),
+        (10.0, 0.4),
+        (10.0, 0.8),
+        (5.0, 0.8),
+        (5.0, 0.4),
+        (5.0, 6.0),
+        (5.0, 0.4),
+        (0.0, 0.4),
+    ])];
+    let paths = gap_fill(&bow, &options());
+    let cover = cover(&bow, &paths, 0.02);
+    assert!(cover.covered > 0.9 && cover.outside < 0.02, "{cover:?} {paths:?}");
+}

@@ -9,7 +9,9 @@ mod scan;
 use fgm_core::{Polygon, Role, bead};
 
 use crate::{
-    GapOptions, Inset, Path, gap_fill, region,
+    GapOptions, Inset, Path,
+    gap::fill_thin,
+    gap_fill, region,
     walls::{loops, peel::peel},
 };
 pub use pattern::Pattern;
@@ -172,7 +174,7 @@ fn gaps(options: &InfillOptions) -> GapOptions {
 fn solid_loops(region: &[Polygon], options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
     let peel = peel(region, options.spacing(), usize::MAX, inset);
     let mut out = loops(&peel.loops, options.width, |_| options.role);
-    out.extend(gap_fill(&peel.thin, &gaps(options)));
+    out.extend(fill_thin(&peel.thin, &gaps(options), 0.0));
     out
 }
 

@@ -24,7 +24,8 @@ pub trait Inset: Sync {
     /// every inset up to `clear` keeps its shape (no ring splits, merges or vanishes); `None`
     /// where that is not so or not known.
     ///
-    /// `distances` are positive and at most `clear`. The default knows nothing.
+    /// `distances` are positive and at most `clear`, or any that the caller knows to be so where
+    /// `clear` is 0. The default knows nothing.
     fn nested(&self, polygon: &Polygon, clear: f64, distances: &[f64]) -> Option<Vec<Polygon>> {
         let _ = (polygon, clear, distances);
         None
@@ -80,7 +81,9 @@ impl Inset for ClipperInset {
 
     fn nested(&self, polygon: &Polygon, clear: f64, distances: &[f64]) -> Option<Vec<Polygon>> {
         let polygon = simplify::polygon(polygon, self.simplify)?;
-        local::offset(std::slice::from_ref(&polygon), clear)?;
+        if clear > 0.0 {
+            local::offset(std::slice::from_ref(&polygon), clear)?;
+        }
         distances.iter().map(|&d| local::moved(&polygon, d)).collect()
     }
 }

@@ -5,7 +5,7 @@ mod split;
 
 use fgm_core::{Polygon, Role, bead};
 
-use crate::{GapOptions, Inset, Path, gap_fill};
+use crate::{GapOptions, Inset, Path, gap::fill_thin};
 use peel::peel;
 
 /// How walls are made.
@@ -45,7 +45,7 @@ pub struct Walls {
 /// The first wall's centre lies half a bead inside the outline, the next ones a
 /// [spacing](bead::spacing) apart, so that walls fill their share of the volume exactly. Islands
 /// and holes all get walls. Where no loop fits, beads of varying width along the middle
-/// ([`gap_fill`]) take its place, so that thin parts are printed.
+/// ([`gap_fill`](crate::gap_fill)) take its place, so that thin parts are printed.
 pub fn walls(region: &[Polygon], options: &WallOptions, inset: &dyn Inset) -> Walls {
     let spacing = bead::spacing(options.width, options.height);
     if !(spacing > 0.0 && spacing.is_finite()) {
@@ -57,7 +57,7 @@ pub fn walls(region: &[Polygon], options: &WallOptions, inset: &dyn Inset) -> Wa
     let mut paths = loops(&peel.loops, options.width, |turn| {
         if turn == 0 { Role::OuterWall } else { Role::InnerWall }
     });
-    paths.extend(gap_fill(
+    paths.extend(fill_thin(
         &peel.thin,
         &GapOptions {
             width: options.width,
@@ -65,6 +65,7 @@ pub fn walls(region: &[Polygon], options: &WallOptions, inset: &dyn Inset) -> Wa
             min_width: options.min_width,
             max_width: options.max_width,
         },
+        0.0,
     ));
     Walls { paths, inside: peel.rest }
 }

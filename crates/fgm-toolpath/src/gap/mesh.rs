@@ -1,5 +1,6 @@
 //! The triangles inside a polygon.
 
+use super::{flip::flip, ribbon::ribbon};
 use fgm_core::{Point2, Polygon};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation};
 
@@ -37,28 +38,44 @@ pub(super) struct Mesh {
 
 impl Mesh {
     /// Triangulates, after cutting border edges to `longest` mm at most.
-    pub(super) fn new(polygon: &Polygon, longest: f64) -> Self {
+    ///
+    /// Most polygons that are thin are ribbons, no wider anywhere than `widest`, and need no
+    /// search.
+    pub(super) fn new(polygon: &Polygon, longest: f64, widest: f64) -> Self {
         let mut vertices = Vec::new();
-        let mut edges: Vec<[usize; 2]> = Vec::new();
+        let mut starts = Vec::new();
         for ring in polygon.rings() {
-            let first = vertices.len();
+            starts.push(vertices.len());
             for (a, b) in ring.edges() {
                 let parts = (a.distance(b) / longest).ceil().clamp(1.0, 1e4) as usize;
-                for part in 0..parts {
-                    let p = a + (b - a) * (part as f64 / parts as f64);
-                    vertices.push(spade::Point2::new(p.x, p.y));
-                }
+                let part = |i: usize| a + (b - a) * (i as f64 / parts as f64);
+                vertices.extend((0..parts).map(part));
             }
-            let end = vertices.len();
-            edges.extend((first..end).map(|i| [i, if i + 1 < end { i + 1 } else { first }]));
         }
-        type Cdt = ConstrainedDelaunayTriangulation<spade::Point2<f64>>;
-        // Borders that touch may conflict by rounding; a lost border edge costs one gap its
-        // filling and no more.
-        match Cdt::try_bulk_load_cdt(vertices, edges, |_| {}) {
-            Ok(cdt) => Self { triangles: inside(&cdt) },
-            Err(_) => Self { triangles: Vec::new() },
-        }
+        let quick =
+            if polygon.holes.is_empty() { ribbon(&vertices, widest).and_then(flip) } else { None };
+        Self { triangles: quick.unwrap_or_else(|| delaunay(&vertices, &starts)) }
+    }
+
+    /// Area of all triangles, mm².
+    pub(super) fn area(&self) -> f64 {
+        self.triangles.iter().map(Triangle::area).sum()
+    }
+}
+
+/// The triangulation of rings that begin at `starts`.
+fn delaunay(vertices: &[Point2], starts: &[usize]) -> Vec<Triangle> {
+    let mut edges = Vec::with_capacity(vertices.len());
+    for (ring, &first) in starts.iter().enumerate() {
+        let end = starts.get(ring + 1).copied().unwrap_or(vertices.len());
+        edges.extend((first..end).map(|i| [i, if i + 1 < end { i + 1 } else { first }]));
+    }
+    let vertices = vertices.iter().map(|p| spade::Point2::new(p.x, p.y)).collect();
+    // Borders that touch may conflict by rounding; a lost border edge costs one gap its filling
+    // and no more.
+    match ConstrainedDelaunayTriangulation::try_bulk_load_cdt(vertices, edges, |_| {}) {
+        Ok(cdt) => inside(&cdt),
+        Err(_) => Vec::new(),
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{Inset, Path, inset::grid::EdgeGrid, inset::simplify};
 /// Length of line in a unit of area, for a period of 2 pi, averaged over z.
 const LENGTH_PER_AREA: f64 = 0.3913;
 /// Steps in a period.
-const STEPS: f64 = 48.0;
+const STEPS: usize = 48;
 /// How far lines may be straightened, mm.
 const STRAIGHTEN: f64 = 0.01;
 
@@ -40,7 +40,10 @@ pub(super) fn lines(region: &[Polygon], options: &InfillOptions, inset: &dyn Ins
     // A branch strays from its middle by less than a period.
     let first = (across.lo / scale / TAU).floor() as i64 - 1;
     let last = (across.hi / scale / TAU).ceil() as i64 + 1;
-    let step = TAU / STEPS;
+    let step = TAU / STEPS as f64;
+    let table = [0, 1].map(|branch| -> Vec<f64> {
+        (0..STEPS).map(|i| waves.at(i as f64 * step, branch)).collect()
+    });
     // Beyond the bounds at both ends: lines begin and end outside.
     let (from, to) =
         ((along.lo / scale / step).floor() as i64, (along.hi / scale / step).ceil() as i64);
@@ -49,7 +52,8 @@ pub(super) fn lines(region: &[Polygon], options: &InfillOptions, inset: &dyn Ins
             let points: Vec<Point2> = (from - 1..=to + 1)
                 .map(|i| {
                     let t = i as f64 * step;
-                    let v = waves.at(t, branch) + period as f64 * TAU;
+                    let v = table[branch as usize][i.rem_euclid(STEPS as i64) as usize]
+                        + period as f64 * TAU;
                     if waves.upright { Point2::new(v, t) } else { Point2::new(t, v) }
                 })
                 .map(|p| p * scale)

@@ -3,7 +3,8 @@
 
 use fgm_core::Polygon;
 
-use crate::{Inset, region};
+use super::split::split;
+use crate::{Inset, gap::shaved, inset::simplify, region};
 
 /// Half the thickness, in line spacings, below which a region takes no loop. A loop then leaves
 /// at least 0.6 spacings between its inner sides, room for a bead of the least width, and what
@@ -15,12 +16,15 @@ const STAND_OFF: f64 = 1e-2;
 /// The least area of a thin rest, in squares of the spacing.
 const LEAST_THIN: f64 = 0.1;
 
+/// How far a border may be moved by dropping vertices before it is looked at, mm.
+const SIMPLIFY: f64 = 1e-3;
+
 /// A region taken apart.
 #[derive(Debug, Default)]
 pub(crate) struct Peel {
     /// Loops, as the regions they run around, from outside to inside: the centre lines of beads.
     pub(crate) loops: Vec<Vec<Polygon>>,
-    /// What is too thin for loops.
+    /// What is too thin for loops: simple polygons, for [`crate::gap::fill_thin`].
     pub(crate) thin: Vec<Polygon>,
     /// What lies inside the last loops.
     pub(crate) rest: Vec<Polygon>,
@@ -41,7 +45,7 @@ pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn In
         let mut loops = Vec::new();
         let mut next = Vec::new();
         for polygon in now {
-            step(polygon, spacing, inset, &mut loops, &mut next, &mut out.thin);
+            step(&polygon, spacing, inset, &mut loops, &mut next, &mut out.thin);
         }
         if !loops.is_empty() {
             out.loops.push(loops);
@@ -53,7 +57,7 @@ pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn In
 }
 
 fn step(
-    polygon: Polygon,
+    polygon: &Polygon,
     spacing: f64,
     inset: &dyn Inset,
     loops: &mut Vec<Polygon>,
@@ -61,16 +65,12 @@ fn step(
     thin: &mut Vec<Polygon>,
 ) {
     let half = HALF_LOOP * spacing;
-    if let Some(rings) = inset.nested(&polygon, half, &[0.5 * spacing, spacing])
-        && let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings)
-    {
-        loops.push(centre);
-        next.push(inner);
-        return;
-    }
-    if let Some(split) = super::split::split(&polygon, half) {
+    let Some(polygon) = simplify::polygon(polygon, SIMPLIFY) else { return };
+    if let Some(split) = split(&polygon, half) {
+        // What needed no cut keeps its shape.
+        let clear = if split.whole { 0.0 } else { spacing };
         for polygon in split.thick {
-            shell(polygon, spacing, inset, loops, next);
+            shell(polygon, spacing, clear, inset, loops, next);
         }
         let least = LEAST_THIN * spacing * spacing;
         thin.extend(split.thin.into_iter().filter(|p| p.area() > least));
@@ -79,15 +79,16 @@ fn step(
     slow(polygon, spacing, inset, loops, next, thin);
 }
 
-/// One loop of what is thick throughout.
+/// One loop of what is thick throughout; `clear` is how far that is still to be checked.
 fn shell(
     polygon: Polygon,
     spacing: f64,
+    clear: f64,
     inset: &dyn Inset,
     loops: &mut Vec<Polygon>,
     next: &mut Vec<Polygon>,
 ) {
-    if let Some(rings) = inset.nested(&polygon, spacing, &[0.5 * spacing, spacing])
+    if let Some(rings) = inset.nested(&polygon, clear, &[0.5 * spacing, spacing])
         && let Ok([centre, inner]) = <[Polygon; 2]>::try_from(rings)
     {
         loops.push(centre);
@@ -110,7 +111,11 @@ fn slow(
 ) {
     let half = HALF_LOOP * spacing;
     let polygon = [polygon];
-    let core = inset.inset(&polygon, half);
+    let mut core = inset.inset(&polygon, half);
+    if region::area(&polygon) > 40.0 * spacing * spacing {
+        // Lumps in something long and thin, hardly thicker than the rest, are not worth a loop.
+        core.retain(|lump| lump.outer.length() > 6.0 * spacing);
+    }
     if core.is_empty() {
         thin.extend(polygon);
         return;
@@ -119,10 +124,13 @@ fn slow(
     // where the loops run; they keep their distance from the true border.
     let fits = inset.inset(&core, 0.5 * spacing - half - STAND_OFF);
     let around = region::intersection(&inset.inset(&polygon, 0.5 * spacing), &fits);
+    // Loops nearer to each other than a spacing become one.
     let covered = inset.inset(&around, -0.5 * spacing - STAND_OFF);
+    let around = inset.inset(&covered, 0.5 * spacing + STAND_OFF);
     let left = region::difference(&polygon, &covered);
     let least = LEAST_THIN * spacing * spacing;
-    thin.extend(left.into_iter().filter(|p| p.area() > least));
+    let left: Vec<Polygon> = left.into_iter().filter(|p| p.area() > least).collect();
+    thin.extend(shaved(&left, inset));
     next.extend(inset.inset(&around, 0.5 * spacing));
     loops.extend(around);
 }

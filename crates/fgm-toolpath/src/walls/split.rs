@@ -24,6 +24,8 @@ const SHARPEST: f64 = 0.05;
 pub(super) struct Split {
     pub(super) thick: Vec<Polygon>,
     pub(super) thin: Vec<Polygon>,
+    /// Whether all of the polygon is thick, corners included: every moved edge fits.
+    pub(super) whole: bool,
 }
 
 /// A ring with what is known of its edges; edge `i` runs from vertex `i` to the next.
@@ -31,6 +33,8 @@ struct Side {
     points: Vec<Point2>,
     moved: Vec<Point2>,
     fits: Vec<bool>,
+    /// Edges that fit in their middle only.
+    partial: Vec<usize>,
 }
 
 /// A maximal run of edges that fit, `first` to `last` (past the end where it goes round).
@@ -57,6 +61,9 @@ struct Cut {
 /// Cuts a polygon where it is thinner than `2 * radius`; `None` where the cuts do not work out.
 pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
     let sides = sides(polygon, radius)?;
+    if sides.iter().all(|s| s.fits.iter().all(|&f| f)) {
+        return Some(Split { thick: vec![polygon.clone()], thin: Vec::new(), whole: true });
+    }
     let mut thick = Vec::new();
     let mut thin = Vec::new();
     let mut runs = Vec::new();
@@ -69,10 +76,14 @@ pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
             runs_of(side, index, &mut runs);
         }
     }
+    if hides_more(&sides, &runs) {
+        return None;
+    }
     let cuts = cuts(&sides, &runs, radius)?;
     thick_rings(&sides, &runs, &cuts, &mut thick)?;
     thin_rings(&sides, &runs, &cuts, &mut thin)?;
-    let split = Split { thick: nest(thick.into_iter()), thin: nest(thin.into_iter()) };
+    let split =
+        Split { thick: nest(thick.into_iter()), thin: nest(thin.into_iter()), whole: false };
     let area = |p: &[Polygon]| p.iter().map(Polygon::area).sum::<f64>();
     let whole = polygon.area();
     let sum = area(&split.thick) + area(&split.thin);
@@ -84,19 +95,24 @@ fn sides(polygon: &Polygon, radius: f64) -> Option<Vec<Side>> {
     for ring in polygon.rings() {
         let points = subdivided(ring, LONGEST * radius);
         let moved = moved(&points, radius)?;
-        sides.push(Side { points, moved, fits: Vec::new() });
+        sides.push(Side { points, moved, fits: Vec::new(), partial: Vec::new() });
     }
     let edges: Vec<_> = polygon.rings().flat_map(Ring::edges).collect();
     let grid = EdgeGrid::new(edges, 1.5 * radius);
     for side in &mut sides {
         let n = side.points.len();
-        let fits = (0..n).map(|i| {
+        for i in 0..n {
             let next = (i + 1) % n;
             let (a, b) = (side.moved[i], side.moved[next]);
             let forward = (b - a).dot(side.points[next] - side.points[i]) > 0.0;
-            forward && !grid.any_within(a, b, radius - SLACK)
-        });
-        side.fits = fits.collect();
+            let near = |a, b| grid.any_within(a, b, radius - SLACK);
+            let fits = forward && !near(a, b);
+            side.fits.push(fits);
+            let middle = (a + b) * 0.5;
+            if forward && !fits && !near(middle, middle) {
+                side.partial.push(i);
+            }
+        }
     }
     Some(sides)
 }
@@ -135,6 +151,17 @@ fn runs_of(side: &Side, index: usize, runs: &mut Vec<Run>) {
     if let Some(last) = runs.last_mut() {
         last.next = begin;
     }
+}
+
+/// Whether an edge fits in part that is not beside a run: something thick has no whole edge that
+/// fits, and would be missed.
+fn hides_more(sides: &[Side], runs: &[Run]) -> bool {
+    let beside = |side: usize, edge: usize| {
+        let n = sides[side].points.len();
+        let own = runs.iter().filter(|r| r.side == side);
+        own.clone().any(|r| (r.last + 1) % n == edge || (r.first + n - 1) % n == edge)
+    };
+    sides.iter().enumerate().any(|(i, s)| s.partial.iter().any(|&edge| !beside(i, edge)))
 }
 
 /// The cut after each run.
@@ -187,7 +214,7 @@ fn bay<'a>(sides: &'a [Side], runs: &[Run], run: &Run) -> impl Iterator<Item = P
 fn crossing(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<f64> {
     let (u, v) = (b - a, d - c);
     let area = u.perp_dot(v);
-    if area.abs() < 1e-15 {
+    if area.abs() < 1e-9 * u.length() * v.length() {
         return None;
     }
     let (s, t) = ((c - a).perp_dot(v) / area, (c - a).perp_dot(u) / area);
@@ -267,3 +294,7 @@ fn thin_rings(sides: &[Side], runs: &[Run], cuts: &[Cut], out: &mut Vec<Ring>) -
     }
     Some(())
 }
+
+#[cfg(test)]
+#[path = "split_tests.rs"]
+mod tests;
