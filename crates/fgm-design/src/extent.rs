@@ -178,6 +178,10 @@ impl Side<'_> {
         }
         while (beyond - p[self.axis]).abs() > 1e-11 * size {
             let middle = 0.5 * (p[self.axis] + beyond);
+            // Far from the origin the numbers are further apart than that.
+            if middle == beyond || middle == p[self.axis] {
+                break;
+            }
             match self.inside_at(p, middle) {
                 Some(q) => p = q,
                 None => beyond = middle,
@@ -227,6 +231,9 @@ const DIRECTIONS: [[f64; 3]; 26] = directions();
 /// How often the directions are turned before the step is halved. A ridge, where the greatest of
 /// several values changes from one to another, leads down in a narrow range of directions.
 const TURNS: usize = 4;
+
+/// The most moves downhill: on a curved ridge they become ever shorter.
+const MAX_MOVES: usize = 500;
 
 const fn directions() -> [[f64; 3]; 26] {
     let step = [-1.0, 0.0, 1.0];
@@ -279,6 +286,7 @@ fn downhill(
     let size = within.size();
     let axis = fixed.map_or(Point3::splat(1.0 / 3.0_f64.sqrt()), |k| Point3::AXES[k]);
     let mut step = 1.0 / 16.0;
+    let mut moves = 0;
     while value > 0.0 || value.is_nan() {
         let mut moved = false;
         for turn in 0..TURNS {
@@ -296,11 +304,12 @@ fn downhill(
                 break;
             }
         }
+        moves += usize::from(moved);
         if !moved {
             step *= 0.5;
-            if step < finest {
-                return Err(p);
-            }
+        }
+        if step < finest || moves > MAX_MOVES {
+            return Err(p);
         }
     }
     Ok(p)

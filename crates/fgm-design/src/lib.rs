@@ -16,7 +16,7 @@
 //!
 //! Nothing a file holds makes a function here panic, and every limit on size is named:
 //! [`MAX_TEXT_BYTES`], [`MAX_MESH_BYTES`], [`MAX_TRIANGLES`], [`MAX_NODES`], [`MAX_NAMES`],
-//! [`MAX_DEPTH`].
+//! [`MAX_DEPTH`], [`MAX_REACH`].
 //!
 //! # Example
 //!
@@ -52,7 +52,8 @@ pub use mesh::obj::read_obj;
 pub use mesh::stl::read_stl;
 pub use mesh::threemf::read_3mf;
 pub use problem::{
-    MAX_DEPTH, MAX_MESH_BYTES, MAX_NAMES, MAX_NODES, MAX_TEXT_BYTES, MAX_TRIANGLES, Problem,
+    MAX_DEPTH, MAX_MESH_BYTES, MAX_NAMES, MAX_NODES, MAX_REACH, MAX_TEXT_BYTES, MAX_TRIANGLES,
+    Problem,
 };
 pub use source::Location;
 pub use warning::Warning;

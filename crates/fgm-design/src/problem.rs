@@ -10,6 +10,8 @@ pub const MAX_MESH_BYTES: u64 = 2 << 30;
 pub const MAX_TRIANGLES: usize = 20_000_000;
 /// The most nodes of a `.vcad` design, numbers by name included.
 pub const MAX_NODES: usize = 100_000;
+/// How far from the origin a design may reach, mm.
+pub const MAX_REACH: f64 = 1e6;
 /// The most numbers by name that are known at a place.
 pub const MAX_NAMES: usize = 1000;
 /// How deep nodes may be nested.
@@ -207,6 +209,9 @@ pub enum Problem {
         /// How far was searched, mm.
         limit: f64,
     },
+    /// A shape further away, or larger, than can be told from a mistake.
+    #[error("this reaches further than {MAX_REACH} mm from the origin")]
+    TooFar,
     /// A shape with nothing inside.
     #[error("this shape is empty")]
     EmptyShape,

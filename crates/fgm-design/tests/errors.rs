@@ -187,6 +187,15 @@ fn functions_meshes_and_emptiness() {
             "1:1: this shape is empty",
         ),
         ("difference() { sphere(1, \"a\"); cube(3, \"a\"); }", "1:1: this shape is empty"),
+        ("cube(1e7, \"a\");", "1:1: this reaches further than 1000000 mm from the origin"),
+        (
+            "extrude(2, [(0, 0), (4, 1e308), (2, 3)], \"c\");",
+            "1:1: this reaches further than 1000000 mm from the origin",
+        ),
+        (
+            "scale(1e150, 1, 1) { scale(1e150, 1, 1) { scale(1e150, 1, 1) { cube(1, \"c\"); } } }",
+            "1:1: this reaches further than 1000000 mm from the origin",
+        ),
         ("sphere(1, \"void\");", "1:1: this shape is empty"),
         ("offset(-2) { sphere(1, \"a\"); }", "1:1: this shape is empty"),
     ]);

@@ -172,6 +172,19 @@ fn shapes_stand_where_the_reference_says() {
     }
 }
 
+/// The search for the ends once went on for ever where numbers are further apart than its goal.
+#[test]
+fn far_from_the_origin_the_ends_are_found_too() {
+    let text = "translate(999990, 2, 3) { rotate(30, -45, 180) { torus(5, 1, \"m\"); } }";
+    let bounds = design(text).bounds;
+    assert!((bounds.center().x - 999_990.0).abs() < 1e-6, "{bounds:?}");
+    // What a ring of radius 5 reaches along x, whose axis lies at 30 and 45 degrees, and the tube.
+    let axis = [0.75_f64.sqrt() * 0.5_f64.sqrt(), 0.5, 0.75_f64.sqrt() * 0.5_f64.sqrt()];
+    let reach = |k: usize| 5.0 * (1.0 - axis[k] * axis[k]).sqrt() + 1.0;
+    let size = Point3::new(reach(0), reach(1), reach(2)) * 2.0;
+    assert!((bounds.size() - size).abs().max_element() < 1e-4, "{:?} {size}", bounds.size());
+}
+
 #[test]
 fn combinations_hold_what_they_say() {
     let inside = |text: &str, p: [f64; 3]| field(&design(text)).eval(Point3::from(p)) <= 0.0;

@@ -16,6 +16,7 @@ use super::parser;
 use super::part::{Part, Shape};
 use crate::extent::{self, REACH};
 use crate::palette::Palette;
+use crate::problem::MAX_REACH;
 use crate::source::Source;
 use crate::{DesignError, Loaded, Problem, Warning};
 
@@ -46,9 +47,11 @@ impl Lowering<'_> {
         if part.void || part.is_empty() {
             return Err(self.source.error(top, Problem::EmptyShape));
         }
-        if !part.bounds.is_finite() {
-            let span = self.endless.clone().unwrap_or(top);
-            return Err(self.source.error(span, Problem::Unbounded { limit: REACH }));
+        if let (Some(span), false) = (&self.endless, part.bounds.is_finite()) {
+            return Err(self.source.error(span.clone(), Problem::Unbounded { limit: REACH }));
+        }
+        if is_far(&part) {
+            return Err(self.source.error(top, Problem::TooFar));
         }
         if let (Shape::Field(field), false) = (&part.shape, part.tight) {
             let Some(bounds) = extent::tighten(&**field, &part.bounds) else {
@@ -80,6 +83,9 @@ impl Lowering<'_> {
         let file = |error| DesignError::file(path, Problem::Field { error });
         if let Some(by) = self.fit(&part)? {
             part = part.transformed(&by).map_err(file)?;
+        }
+        if is_far(&part) {
+            return Err(DesignError::file(path, Problem::TooFar));
         }
         self.name_fractions()?;
         let part = self.with_fractions(part)?;
@@ -187,6 +193,12 @@ impl Lowering<'_> {
             bounds: part.bounds,
         })
     }
+}
+
+/// Whether a part reaches, or may reach, beyond what a design may.
+fn is_far(part: &Part) -> bool {
+    let reach = part.bounds.min.abs().max(part.bounds.max.abs());
+    !reach.cmple(DVec3::splat(MAX_REACH)).all()
 }
 
 fn stem(path: &Path) -> String {
