@@ -64,3 +64,8 @@ pub use section::{Sectioner, Span, point_at, slice_path};
 pub type Point2 = glam::DVec2;
 /// A point or vector in space, mm; z is up.
 pub type Point3 = glam::DVec3;
+
+/// The README's example runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -48,6 +48,7 @@ mod pipeline;
 mod placement;
 mod progress;
 mod report;
+mod resolution;
 mod samples;
 mod sectioned;
 mod settings;
@@ -79,3 +80,8 @@ pub use fgm_gcode as gcode;
 pub use fgm_palette as palette;
 pub use fgm_toolpath as toolpath;
 pub use fgm_toolpath::{FaceFill, Pattern};
+
+/// The README's example runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

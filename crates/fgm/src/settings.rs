@@ -95,6 +95,8 @@ settings! {
         cell: f64 = 0.5, "0.5", "mm";
         #[doc = "How far a simplified contour may lie from the true one."]
         tolerance: f64 = 0.01, "0.01", "mm";
+        #[doc = "How far a printed path may lie from the exact one."]
+        resolution: f64 = 0.005, "0.005", "mm";
         #[doc = "How far a vertex may lie from the true contour before simplification."]
         root: f64 = 1e-6, "1e-6", "mm";
     }
@@ -226,6 +228,7 @@ impl Settings {
         length("layer.bead_width", self.layer.bead_width)?;
         within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
         within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
+        within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
         within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
         within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;

@@ -2,8 +2,9 @@
 
 use fgm_core::{Bounds2, Point2};
 
-/// The most cells on a side: a few long edges must not make millions of cells.
-const MOST: f64 = 1024.0;
+/// The most cells an edge: a long thin border must not make mostly empty cells, which cost more
+/// to clear than they save.
+const CELLS_AN_EDGE: f64 = 4.0;
 
 /// Edges by cell, in one array a piece (no allocation a cell).
 pub(crate) struct EdgeGrid {
@@ -20,8 +21,11 @@ impl EdgeGrid {
     /// Sorts edges into cells of about `cell` mm.
     pub(crate) fn new(edges: Vec<(Point2, Point2)>, cell: f64) -> Self {
         let bounds = Bounds2::of(edges.iter().flat_map(|&(a, b)| [a, b]));
-        let size = if bounds.is_finite() { bounds.size().max_element() } else { 0.0 };
-        let cell = cell.max(size / MOST).max(1e-6);
+        let size = if bounds.is_finite() { bounds.size() } else { Point2::ZERO };
+        let most = CELLS_AN_EDGE * edges.len().max(1) as f64;
+        // Along a border as straight as a line, too, where the area says nothing.
+        let least = (size.x * size.y / most).sqrt().max(size.max_element() / most);
+        let cell = cell.max(least).max(1e-6);
         let count = |length: f64| (length.max(0.0) / cell) as usize + 1;
         let (columns, rows) = if bounds.is_finite() {
             (count(bounds.size().x), count(bounds.size().y))
@@ -110,8 +114,15 @@ impl EdgeGrid {
         out[first..].sort_unstable_by(f64::total_cmp);
     }
 
-    /// Whether any edge passes closer than `distance` to the segment from `a` to `b`.
-    pub(crate) fn any_within(&self, a: Point2, b: Point2, distance: f64) -> bool {
+    /// Whether any edge that is not to be skipped (by its index) passes closer than `distance` to
+    /// the segment from `a` to `b`.
+    pub(crate) fn any_within(
+        &self,
+        a: Point2,
+        b: Point2,
+        distance: f64,
+        skip: impl Fn(u32) -> bool,
+    ) -> bool {
         let low = a.min(b) - distance;
         let high = a.max(b) + distance;
         for row in self.row(low.y)..=self.row(high.y) {
@@ -121,7 +132,7 @@ impl EdgeGrid {
                 for &item in &self.items[range] {
                     let (c, d) = self.edges[item as usize];
                     let apart = c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any();
-                    if !apart && segments_within(a, b, c, d, distance) {
+                    if !apart && !skip(item) && segments_within(a, b, c, d, distance) {
                         return true;
                     }
                 }
@@ -134,10 +145,16 @@ impl EdgeGrid {
 fn segments_within(a: Point2, b: Point2, c: Point2, d: Point2, distance: f64) -> bool {
     let squared = distance * distance;
     let near = |p: Point2, q: Point2, r: Point2| {
-        let v = r - q;
-        let length = v.length_squared();
-        let at = if length > 0.0 { ((p - q).dot(v) / length).clamp(0.0, 1.0) } else { 0.0 };
-        p.distance_squared(q + v * at) < squared
+        let (v, to) = (r - q, p - q);
+        let (along, length) = (to.dot(v), v.length_squared());
+        if along <= 0.0 {
+            to.length_squared() < squared
+        } else if along >= length {
+            p.distance_squared(r) < squared
+        } else {
+            let across = v.perp_dot(to);
+            across * across < squared * length
+        }
     };
     let crossing = || {
         let (u, v) = (b - a, d - c);

@@ -23,8 +23,20 @@ pub(super) fn offset(region: &[Polygon], distance: f64) -> Option<Vec<Polygon>> 
     let reach = distance.abs();
     let mean = length / edges.len().max(1) as f64;
     let grid = EdgeGrid::new(edges, reach.max(mean));
-    let near = |(a, b): (Point2, Point2)| grid.any_within(a, b, reach - SLACK);
-    let meets = out.iter().flat_map(Polygon::rings).flat_map(Ring::edges).any(near);
+    let rings = region.iter().zip(&out).flat_map(|(old, new)| old.rings().zip(new.rings()));
+    let mut first = 0;
+    let meets = rings.into_iter().any(|(old, new)| {
+        let n = old.points.len();
+        let base = first;
+        first += n;
+        // An edge is the distance away from the one it comes from and from that one's neighbours
+        // by its making. Where edges vanished, which comes from which is not known.
+        let whole = new.points.len() == n;
+        new.edges().enumerate().any(|(i, (a, b))| {
+            let own = [(i + n - 1) % n, i, (i + 1) % n].map(|edge| (base + edge) as u32);
+            grid.any_within(a, b, reach - SLACK, |edge| whole && own.contains(&edge))
+        })
+    });
     (!meets).then_some(out)
 }
 

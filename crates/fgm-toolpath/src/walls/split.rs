@@ -105,7 +105,7 @@ fn sides(polygon: &Polygon, radius: f64) -> Option<Vec<Side>> {
             let next = (i + 1) % n;
             let (a, b) = (side.moved[i], side.moved[next]);
             let forward = (b - a).dot(side.points[next] - side.points[i]) > 0.0;
-            let near = |a, b| grid.any_within(a, b, radius - SLACK);
+            let near = |a, b| grid.any_within(a, b, radius - SLACK, |_| false);
             let fits = forward && !near(a, b);
             side.fits.push(fits);
             let middle = (a + b) * 0.5;
