@@ -1,5 +1,7 @@
 //! Prints the section of a bead and the spacing of lines that fill a layer, for common sizes.
 
+#![allow(clippy::print_stdout, reason = "an example shows what it does")]
+
 use fgm_core::bead;
 
 fn main() {

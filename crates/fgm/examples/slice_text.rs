@@ -1,5 +1,7 @@
 //! Slices a design from text in both strategies and prints the figures.
 
+#![allow(clippy::print_stdout, reason = "an example shows what it does")]
+
 use fgm::{Quiet, Settings, Slicer, Strategy, design, gcode::Machine};
 
 const DESIGN: &str = r#"

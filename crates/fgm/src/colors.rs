@@ -1,6 +1,8 @@
 //! The palette of a slice: how many colours, and how far they overlap.
 
-use fgm_core::{ColorId, Field, MAX_MATERIALS, Mixture, Point3, Role};
+use std::ops::Range;
+
+use fgm_core::{Bounds2, ColorId, Field, Interval, MAX_MATERIALS, Mixture, Point3, Role};
 use fgm_field::Design;
 use fgm_palette::Palette;
 use fgm_toolpath::Piece;
@@ -8,6 +10,7 @@ use fgm_toolpath::Piece;
 use crate::{
     choice::{Strategy, Zipper},
     error::SliceError,
+    layers::Layers,
     outlines::Outliner,
     samples,
     settings::Settings,
@@ -36,7 +39,7 @@ pub(crate) fn palette(
     };
     let share = match settings.palette.zipper {
         Zipper::Share(share) => share,
-        Zipper::Length(length) if length == 0.0 => 0.0,
+        Zipper::Length(0.0) => 0.0,
         Zipper::Length(length) => {
             let gradients = gradients(design, outliner)?;
             let mean = gradients.iter().sum::<f64>() / gradients.len().max(1) as f64;
@@ -78,6 +81,36 @@ pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
         });
         parts.sum::<f64>().round() as u8
     })
+}
+
+/// The last layer of `range` in which each colour may occur, counted from the range's first; 0
+/// for one that occurs in none.
+///
+/// From the bounds of the fractions over whole layers: never too low, often too high.
+pub(crate) fn last_layers(
+    design: &Design,
+    palette: &Palette,
+    window: &Bounds2,
+    layers: Layers,
+    range: Range<usize>,
+) -> Vec<usize> {
+    let mut last = vec![0; palette.colors()];
+    // Half a band about a state is its band; the overlap of a zipper reaches beyond.
+    let reach = palette.half_band() + palette.overlap() + 1e-9;
+    for (count, index) in range.enumerate() {
+        let cut = layers.get(index).cut;
+        let bounds: Vec<Interval> = (0..design.materials.len())
+            .map(|m| design.fractions.fraction(m).at_z(cut).bounds(window))
+            .collect();
+        for (color, last) in ids(palette).zip(&mut last) {
+            let state = palette.state(color);
+            let mut of_materials = bounds.iter().zip(state.fractions());
+            if of_materials.all(|(b, f)| b.lo <= f + reach && f - reach <= b.hi) {
+                *last = count;
+            }
+        }
+    }
+    last
 }
 
 /// The number of colours where none is asked for.

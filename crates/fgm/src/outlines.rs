@@ -21,7 +21,7 @@ pub(crate) struct Outline {
 /// Where outlines come from: a field that is sampled, or a mesh that is cut.
 enum Source<'a> {
     Field(&'a dyn Field, Bounds2),
-    Mesh(MeshSlicer),
+    Mesh(Box<MeshSlicer>),
 }
 
 /// The outlines of a design.
@@ -38,7 +38,7 @@ impl<'a> Outliner<'a> {
                 let window = design.bounds.xy().grown(2.0 * options.cell);
                 Source::Field(field.as_ref(), window)
             }
-            Geometry::Mesh(mesh) => Source::Mesh(MeshSlicer::new(mesh)?),
+            Geometry::Mesh(mesh) => Source::Mesh(Box::new(MeshSlicer::new(mesh)?)),
         };
         Ok(Self { source, options })
     }

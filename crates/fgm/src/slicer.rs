@@ -261,7 +261,7 @@ impl<'a> Slicer<'a> {
         Ok(Stream {
             lead: Lead::with_volume(self.machine, lead),
             writer: Writer::new(out, self.machine, &states, &options)?,
-            towers: self.towers(palette.colors(), lead, part, offset)?,
+            towers: self.towers(palette, lead, part, offset, layers, range)?,
             palette,
             layers,
             threshold: self.settings.purge.threshold,
@@ -273,16 +273,18 @@ impl<'a> Slicer<'a> {
     /// The purge towers, where they are wanted and there is something to purge.
     fn towers(
         &self,
-        colors: usize,
+        palette: &Palette,
         dead_volume: f64,
         part: &Bounds3,
         offset: Point3,
+        layers: Layers,
+        range: Range<usize>,
     ) -> Result<Option<Towers>, SliceError> {
         let purge = &self.settings.purge;
         let usual = self.machine.kind != MachineKind::ToolChanger;
         let wanted = self.settings.slice.strategy == Strategy::Sectioned
             && purge.enabled.unwrap_or(usual)
-            && colors > 1;
+            && palette.colors() > 1;
         let volume = purge.volume.unwrap_or(dead_volume);
         if !wanted || volume <= 0.0 {
             return Ok(None);
@@ -291,13 +293,18 @@ impl<'a> Slicer<'a> {
         let bed = Bounds2::new(bed.min - offset.truncate(), bed.max - offset.truncate());
         let options = TowerOptions {
             volume,
-            clearance: purge.clearance,
             width: self.settings.layer.bead_width,
-            height: self.settings.layer.height,
+            height: self.settings.layer.height.min(self.settings.first_height()),
+            clearance: purge.clearance,
             ..TowerOptions::default()
         };
-        let part = part.xy().grown(self.settings.skirt_reach());
-        Ok(Some(Towers::place(&part, &bed, colors, &options)?))
+        let around = part.xy().grown(self.settings.skirt_reach());
+        let mut towers = Towers::place(&around, &bed, palette.colors(), &options)?;
+        let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
+        for (color, last) in colors::ids(palette).zip(last) {
+            towers.finish(color, last);
+        }
+        Ok(Some(towers))
     }
 
     fn count(&self, planned: &PlannedLayer, report: &mut Report, seconds: &mut StageSeconds) {

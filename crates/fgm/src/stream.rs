@@ -7,7 +7,7 @@ use fgm_gcode::{GcodeError, Lead, Summary, Writer};
 use fgm_palette::Palette;
 use fgm_toolpath::{LayerPlan, Piece, Towers};
 
-use crate::{colors, error::SliceError, job::PlannedLayer, layers::Layers};
+use crate::{error::SliceError, job::PlannedLayer, layers::Layers};
 
 /// What a print is written through.
 pub(crate) struct Stream<'a> {
@@ -52,9 +52,7 @@ impl Stream<'_> {
         };
         let purged = self.purged(&pieces);
         let mut all = Vec::with_capacity(pieces.len() + self.palette.colors());
-        for color in colors::ids(self.palette).filter(|color| !purged.contains(color)) {
-            towers.keep(color, hand, self.count, &mut all);
-        }
+        towers.keep_others(&purged, hand, self.count, &mut all);
         let mut color = self.color;
         for piece in pieces {
             if color != Some(piece.color) {

@@ -1,5 +1,7 @@
 //! Whole parts: layers, walls where they belong, every machine, errors.
 
+#![allow(clippy::unwrap_used, reason = "tests")]
+
 mod common;
 
 use common::{Bead, builtin, deposit, model, parse, settings, slice};
