@@ -90,6 +90,15 @@ pub enum SliceError {
         /// Why.
         reason: String,
     },
+    /// More threads than make sense.
+    #[error(
+        "{asked} threads, where at most {} are possible; 0 takes all cores",
+        crate::MAX_THREADS
+    )]
+    TooManyThreads {
+        /// How many were asked for.
+        asked: usize,
+    },
     /// The pool of threads could not be started.
     #[error("could not start the threads: {message}")]
     Threads {

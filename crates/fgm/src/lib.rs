@@ -68,7 +68,7 @@ pub use settings::{
     PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings,
     SliceSettings, WallSettings,
 };
-pub use slicer::Slicer;
+pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;
 
 pub use fgm_arrange as arrange;

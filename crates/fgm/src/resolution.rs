@@ -12,7 +12,7 @@ pub(crate) fn simplified(paths: Vec<Path>, tolerance: f64) -> Vec<Path> {
         return paths;
     }
     let simplify = |path: Path| {
-        if path.points.len() < 3 || !path.turns.is_empty() {
+        if path.points.len() < 4 || !path.turns.is_empty() {
             return path;
         }
         let points = if path.closed {

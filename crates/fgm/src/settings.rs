@@ -197,6 +197,12 @@ impl Settings {
         (min_width.unwrap_or(0.6 * width), max_width.unwrap_or(1.6 * width))
     }
 
+    /// How far an offset may move a border by dropping vertices first, mm: half of what a path may
+    /// be off, so that the other half is left for the path itself.
+    pub(crate) fn inset_simplification(&self) -> f64 {
+        (0.5 * self.contour.resolution).clamp(1e-4, 0.1)
+    }
+
     /// The loops around the part.
     pub(crate) fn skirt_options(&self) -> SkirtOptions {
         SkirtOptions {

@@ -50,6 +50,9 @@ pub struct Slicer<'a> {
 /// Layers in flight for each thread: enough that none waits for the writing.
 const AHEAD_PER_THREAD: usize = 2;
 
+/// The most threads: more than any machine this runs on has, and each costs memory.
+pub const MAX_THREADS: usize = 512;
+
 /// Layers whose pieces are made to choose the number of colours.
 const AUTO_LAYERS: usize = 5;
 
@@ -87,6 +90,9 @@ impl<'a> Slicer<'a> {
         let mut seconds = StageSeconds::default();
         self.settings.check()?;
         self.check_inputs()?;
+        if self.threads > MAX_THREADS {
+            return Err(SliceError::TooManyThreads { asked: self.threads });
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
             .build()
@@ -231,7 +237,7 @@ impl<'a> Slicer<'a> {
             layers,
             outlines: OutlineWindow::new(outliner, span.min(layers.count())),
             isolines: self.settings.isoline_options(),
-            inset: ClipperInset::default(),
+            inset: ClipperInset { simplify: self.settings.inset_simplification() },
             split_faces: in_range < 2 * threads,
         }
     }

@@ -10,6 +10,8 @@ const CELLS_AN_EDGE: f64 = 4.0;
 pub(crate) struct EdgeGrid {
     origin: Point2,
     cell: f64,
+    /// `1 / cell`.
+    per_mm: f64,
     columns: usize,
     rows: usize,
     starts: Vec<u32>,
@@ -33,8 +35,16 @@ impl EdgeGrid {
             (1, 1)
         };
         let starts = vec![0; columns * rows + 1];
-        let mut grid =
-            Self { origin: bounds.min, cell, columns, rows, starts, items: Vec::new(), edges };
+        let mut grid = Self {
+            origin: bounds.min,
+            cell,
+            per_mm: 1.0 / cell,
+            columns,
+            rows,
+            starts,
+            items: Vec::new(),
+            edges,
+        };
         grid.fill();
         grid
     }
@@ -60,11 +70,11 @@ impl EdgeGrid {
     }
 
     fn column(&self, x: f64) -> usize {
-        (((x - self.origin.x) / self.cell).max(0.0) as usize).min(self.columns - 1)
+        (((x - self.origin.x) * self.per_mm) as usize).min(self.columns - 1)
     }
 
     fn row(&self, y: f64) -> usize {
-        (((y - self.origin.y) / self.cell).max(0.0) as usize).min(self.rows - 1)
+        (((y - self.origin.y) * self.per_mm) as usize).min(self.rows - 1)
     }
 
     /// The cells an edge passes, row by row.
@@ -72,6 +82,14 @@ impl EdgeGrid {
         let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
         let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
         let (first, last) = (self.row(low.y), self.row(high.y));
+        let (left, right) = (self.column(a.x.min(b.x)), self.column(a.x.max(b.x)));
+        // Few cells: which of them it passes costs more to know than to look.
+        if last - first <= 1 && right - left <= 1 {
+            for row in first..=last {
+                (left..=right).for_each(|column| visit(row * self.columns + column));
+            }
+            return;
+        }
         for row in first..=last {
             let (mut from, mut to) = (low.x, high.x);
             if first != last {

@@ -91,21 +91,23 @@ pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
 }
 
 fn sides(polygon: &Polygon, radius: f64) -> Option<Vec<Side>> {
-    let mut sides = Vec::new();
-    for ring in polygon.rings() {
-        let points = subdivided(ring, LONGEST * radius);
-        let moved = moved(&points, radius)?;
-        sides.push(Side { points, moved, fits: Vec::new(), partial: Vec::new() });
-    }
     let edges: Vec<_> = polygon.rings().flat_map(Ring::edges).collect();
     let grid = EdgeGrid::new(edges, 1.5 * radius);
-    for side in &mut sides {
-        let n = side.points.len();
+    let mut sides = Vec::new();
+    let mut first = 0;
+    for ring in polygon.rings() {
+        let (points, sources) = subdivided(ring, LONGEST * radius, first);
+        first += ring.points.len() as u32;
+        let (moved, blunt) = moved(&points, radius)?;
+        let n = points.len();
+        let mut side = Side { points, moved, fits: Vec::new(), partial: Vec::new() };
         for i in 0..n {
             let next = (i + 1) % n;
             let (a, b) = (side.moved[i], side.moved[next]);
             let forward = (b - a).dot(side.points[next] - side.points[i]) > 0.0;
-            let near = |a, b| grid.any_within(a, b, radius - SLACK, |_| false);
+            // The edge it comes from is the radius away by its making, unless a corner was blunted.
+            let own = (!blunt[i] && !blunt[next]).then_some(sources[i]);
+            let near = |a, b| grid.any_within(a, b, radius - SLACK, |edge| Some(edge) == own);
             let fits = forward && !near(a, b);
             side.fits.push(fits);
             let middle = (a + b) * 0.5;
@@ -113,30 +115,36 @@ fn sides(polygon: &Polygon, radius: f64) -> Option<Vec<Side>> {
                 side.partial.push(i);
             }
         }
+        sides.push(side);
     }
     Some(sides)
 }
 
-fn subdivided(ring: &Ring, longest: f64) -> Vec<Point2> {
-    let mut out = Vec::with_capacity(ring.points.len());
-    for (a, b) in ring.edges() {
+/// A ring's points with long edges cut up, and the edge that each new one is part of, counted from
+/// `first`.
+fn subdivided(ring: &Ring, longest: f64, first: u32) -> (Vec<Point2>, Vec<u32>) {
+    let (mut out, mut sources) = (Vec::new(), Vec::new());
+    for ((a, b), edge) in ring.edges().zip(first..) {
         let parts = (a.distance(b) / longest).ceil().clamp(1.0, 1e4) as usize;
         out.extend((0..parts).map(|i| a + (b - a) * (i as f64 / parts as f64)));
+        sources.extend((0..parts).map(|_| edge));
     }
-    out
+    (out, sources)
 }
 
-fn moved(points: &[Point2], radius: f64) -> Option<Vec<Point2>> {
+/// The points moved along their bisectors, and whether that was cut short at a sharp corner.
+fn moved(points: &[Point2], radius: f64) -> Option<(Vec<Point2>, Vec<bool>)> {
     let n = points.len();
     let mut before = (points[0] - points[n - 1]).try_normalize()?;
-    let mut out = Vec::with_capacity(n);
+    let (mut out, mut blunt) = (Vec::with_capacity(n), Vec::with_capacity(n));
     for i in 0..n {
         let after = (points[(i + 1) % n] - points[i]).try_normalize()?;
-        let open = (1.0 + before.dot(after)).max(SHARPEST);
-        out.push(points[i] + (before + after).perp() * (radius / open));
+        let open = 1.0 + before.dot(after);
+        blunt.push(open < SHARPEST);
+        out.push(points[i] + (before + after).perp() * (radius / open.max(SHARPEST)));
         before = after;
     }
-    Some(out)
+    Some((out, blunt))
 }
 
 fn runs_of(side: &Side, index: usize, runs: &mut Vec<Run>) {
