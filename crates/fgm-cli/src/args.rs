@@ -143,11 +143,11 @@ pub(crate) struct SliceArguments {
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub(crate) lead: Option<f64>,
 
-    /// Print only these layers, counted from 1, B included.
+    /// Print only these layers, counted from 1, B included; they keep their height above the bed.
     #[arg(long, value_name = "A..B", value_parser = layer_range)]
     pub(crate) layers: Option<(usize, usize)>,
 
-    /// How many threads to use [default: all cores].
+    /// How many threads to use; 0 for all cores [default: 0].
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
 

@@ -44,10 +44,12 @@ impl Output {
             let stream = fs::OpenOptions::new().write(true).open(&path).map_err(fail)?;
             return Ok(Self::Stream { path, stream: Box::new(stream) });
         }
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
+        let folder = folder_of(&path);
+        if !folder.is_dir() {
+            let (file, folder) = (path.display(), folder.display());
+            let message = format!("{file}: could not write: there is no folder {folder}");
+            return Err(Failure::could_not(message));
+        }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".fgm-").suffix(".part");
         #[cfg(unix)]
@@ -73,6 +75,14 @@ impl Output {
                 stream.flush().map_err(|e| Failure::write(&path, &e))
             }
         }
+    }
+}
+
+/// The folder that a file lies in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }
 

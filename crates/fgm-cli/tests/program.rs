@@ -113,8 +113,29 @@ fn wrong_settings_are_named() {
     slice(&["--layers", "0..3"], 2, &["counted from 1"]);
     slice(&["--layers", "51..60"], 1, &["nothing to print", "50"]);
     slice(&["--size", "300,300,300"], 1, &["too large by 50.00 mm"]);
+    slice(&["--layer-height", "1"], 2, &["layer.height is 1", "layer.bead_width"]);
+    slice(&["--set", "walls.count=x"], 2, &["--set walls.count=x"]);
+    slice(&["--lead", "-5"], 2, &["--lead -5"]);
+    slice(&["--threads", "100000"], 2, &["--threads 100000"]);
     slice(&["--purge", "perhaps"], 2, &["perhaps"]);
     slice(&["--report", "no/report.json"], 1, &["report.json"]);
+}
+
+#[test]
+fn nothing_that_is_read_is_written_over() {
+    let files: &[(&str, &[u8])] = &[("d.vcad", BOX.as_bytes()), ("s.toml", b"")];
+    let place = Place::new(files);
+    for line in [
+        "slice d.vcad -o d.vcad",
+        "slice d.vcad -o ./d.vcad",
+        "slice d.vcad -o s.toml --settings s.toml",
+        "slice d.vcad -o o.gcode --report d.vcad",
+        "slice d.vcad -o o.gcode --report ./o.gcode",
+    ] {
+        let output = place.run(&line.split_whitespace().collect::<Vec<_>>());
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        assert_eq!((place.files().len(), place.read("d.vcad").as_str()), (2, BOX), "{line}");
+    }
 }
 
 #[test]

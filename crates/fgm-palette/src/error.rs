@@ -35,7 +35,7 @@ pub enum PaletteError {
     },
     /// A zipper's overlap has to be narrower than a colour's band.
     #[error(
-        "a zipper overlap of {overlap} of the gradient, where it has to be at least 0 and below \
+        "a zipper overlap of {overlap:.4} of the gradient, where it has to be at least 0 and below \
          {limit}, the width of a colour"
     )]
     Overlap {

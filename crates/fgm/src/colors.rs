@@ -83,8 +83,8 @@ pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
     })
 }
 
-/// The last layer of `range` in which each colour may occur, counted from the range's first; 0
-/// for one that occurs in none.
+/// The last layer of `range` in which each colour may occur, counted from the range's first; none
+/// for one that occurs in no layer.
 ///
 /// From the bounds of the fractions over whole layers: never too low, often too high.
 pub(crate) fn last_layers(
@@ -93,8 +93,8 @@ pub(crate) fn last_layers(
     window: &Bounds2,
     layers: Layers,
     range: Range<usize>,
-) -> Vec<usize> {
-    let mut last = vec![0; palette.colors()];
+) -> Vec<Option<usize>> {
+    let mut last = vec![None; palette.colors()];
     // Half a band about a state is its band; the overlap of a zipper reaches beyond.
     let reach = palette.half_band() + palette.overlap() + 1e-9;
     for (count, index) in range.enumerate() {
@@ -102,11 +102,19 @@ pub(crate) fn last_layers(
         let bounds: Vec<Interval> = (0..design.materials.len())
             .map(|m| design.fractions.fraction(m).at_z(cut).bounds(window))
             .collect();
+        if bounds.iter().all(|b| b.lo == b.hi)
+            && let Ok(mixture) = design.fractions.mixture(window.center().extend(cut))
+        {
+            let band = palette.band(&mixture);
+            last[band.first.index()] = Some(count);
+            last[band.second.index()] = Some(count);
+            continue;
+        }
         for (color, last) in ids(palette).zip(&mut last) {
             let state = palette.state(color);
             let mut of_materials = bounds.iter().zip(state.fractions());
             if of_materials.all(|(b, f)| b.lo <= f + reach && f - reach <= b.hi) {
-                *last = count;
+                *last = Some(count);
             }
         }
     }
@@ -116,6 +124,11 @@ pub(crate) fn last_layers(
 /// The number of colours where none is asked for.
 pub(crate) fn default_count(machine_colors: Option<usize>, materials: usize) -> usize {
     match machine_colors {
+        Some(heads) if materials > 2 => {
+            // One head a material, or as many cells of the simplex as there are heads for.
+            let fits = |count| count == materials || Palette::new(materials, count).is_ok();
+            (1..=heads).rev().find(|&count| fits(count)).unwrap_or(1)
+        }
         Some(heads) => heads,
         None if materials > 2 => {
             // The finest division of the simplex with at most as many cells as the default.
@@ -208,6 +221,8 @@ mod tests {
         assert_eq!(default_count(None, 2), 16);
         assert_eq!(default_count(Some(5), 2), 5);
         assert_eq!(default_count(None, 3), 16);
+        assert_eq!(default_count(Some(5), 3), 4);
+        assert_eq!(default_count(Some(5), 5), 5);
         assert!((1..=16).contains(&default_count(None, 4)));
     }
 }

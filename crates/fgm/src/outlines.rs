@@ -24,6 +24,11 @@ enum Source<'a> {
     Mesh(Box<MeshSlicer>),
 }
 
+/// Cells across the narrower side of a part, at least.
+const LEAST_CELLS: f64 = 16.0;
+/// No cell is made smaller than this for that, mm.
+const SMALLEST_CELL: f64 = 0.01;
+
 /// The outlines of a design.
 pub(crate) struct Outliner<'a> {
     source: Source<'a>,
@@ -31,7 +36,10 @@ pub(crate) struct Outliner<'a> {
 }
 
 impl<'a> Outliner<'a> {
-    pub(crate) fn new(design: &'a Design, options: ContourOptions) -> Result<Self, SliceError> {
+    pub(crate) fn new(design: &'a Design, mut options: ContourOptions) -> Result<Self, SliceError> {
+        // A part of few cells would lose its shape.
+        let least = design.bounds.xy().size().min_element() / LEAST_CELLS;
+        options.cell = options.cell.min(least.max(SMALLEST_CELL));
         let source = match &design.geometry {
             Geometry::Field(field) => {
                 // The surface may lie on the window's edge; one cell more closes it inside.

@@ -46,7 +46,7 @@ mod tests {
                 turns: Vec::new(),
             };
             let [simple] = simplified(vec![path.clone()], 0.005).try_into().unwrap();
-            assert!(simple.points.len() < 120, "{}", simple.points.len());
+            assert!(simple.points.len() < 200, "{}", simple.points.len());
             assert!((simple.length() / path.length() - 1.0).abs() < 1e-3);
             assert!(simple.points.iter().all(|p| (p.length() - 20.0).abs() < 0.0051));
         }

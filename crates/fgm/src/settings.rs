@@ -232,6 +232,10 @@ impl Settings {
         length("layer.height", self.layer.height)?;
         length("layer.first_height", self.first_height())?;
         length("layer.bead_width", self.layer.bead_width)?;
+        // A bead is a capsule, wider than high.
+        let width = self.layer.bead_width;
+        within("layer.height", self.layer.height, 0.0..=width, "at most layer.bead_width")?;
+        within("layer.first_height", self.first_height(), 0.0..=width, "at most layer.bead_width")?;
         within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
         within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
         within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;

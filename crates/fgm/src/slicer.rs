@@ -1,10 +1,10 @@
 use std::{io::Write, ops::Range, time::Instant};
 
-use fgm_core::{Bounds2, Bounds3, Interval, Mixture, Point3};
+use fgm_core::{Bounds2, Bounds3, ColorId, Interval, Mixture, Point3};
 use fgm_field::Design;
 use fgm_gcode::{Lead, Machine, MachineKind, Summary, Writer, WriterOptions};
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, TowerOptions, Towers};
+use fgm_toolpath::{ClipperInset, Inset, TowerOptions, Towers};
 
 use crate::{
     choice::{ColorCount, Strategy, Zipper},
@@ -101,10 +101,10 @@ impl<'a> Slicer<'a> {
         let outliner = timed(&mut seconds.read, || {
             Outliner::new(self.design, self.settings.outline_options())
         })?;
-        let mut warnings = self.warnings(&outliner);
-        warnings.iter().for_each(|w| progress.warn(w));
         let (heights, layers) = self.layers(&outliner)?;
-        let range = self.range(&layers)?;
+        let mut warnings = self.warnings(&outliner, &layers);
+        warnings.iter().for_each(|w| progress.warn(w));
+        let mut range = self.range(&layers)?;
         let part = Bounds3 {
             min: self.design.bounds.min.with_z(heights.lo),
             max: self.design.bounds.max.with_z(heights.hi),
@@ -115,7 +115,20 @@ impl<'a> Slicer<'a> {
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
         let job = self.job(&outliner, &palette, layers, range.len(), threads);
 
-        let offset = self.machine.bed.centering(&part);
+        let mut offset = self.machine.bed.centering(&part);
+        if range.start == 0 {
+            range.start = empty_below(&job, range.end)?;
+            if range.start > 0 {
+                // The part stands on the first layer that can be printed.
+                let first = layers.get(range.start);
+                offset.z -= first.top - first.height - heights.lo;
+                warnings.push(format!(
+                    "the lowest {} layers are narrower than a bead and left out",
+                    range.start
+                ));
+                warnings.last().into_iter().for_each(|w| progress.warn(w));
+            }
+        }
         let mut stream = self.stream(&palette, layers, &part, offset, range.clone(), out)?;
         let mut report = Report::default();
         let (mut done, total) = (0, range.len());
@@ -151,8 +164,13 @@ impl<'a> Slicer<'a> {
     }
 
     /// What the user should know before the first layer.
-    fn warnings(&self, outliner: &Outliner<'_>) -> Vec<String> {
+    fn warnings(&self, outliner: &Outliner<'_>, layers: &Layers) -> Vec<String> {
         let mut warnings = outliner.warnings();
+        let last = self.settings.slice.last_layer;
+        if let Some(last) = last.filter(|last| *last > layers.count()) {
+            warnings
+                .push(format!("layer {last} is asked for; the part ends with {}", layers.count()));
+        }
         let zipper = self.settings.palette.zipper != Zipper::NONE;
         if zipper && self.settings.slice.strategy == Strategy::Against {
             warnings.push(
@@ -174,8 +192,13 @@ impl<'a> Slicer<'a> {
 
     fn layers(&self, outliner: &Outliner<'_>) -> Result<(Interval, Layers), SliceError> {
         let height = self.settings.layer.height;
-        let heights = extent::heights(outliner, &self.design.bounds, height)?
-            .ok_or_else(|| SliceError::NothingToPrint { reason: "the design is empty".into() })?;
+        let heights = extent::heights(outliner, &self.design.bounds, height)?.ok_or_else(|| {
+            SliceError::NothingToPrint {
+                reason: "the design is empty, or smaller than the cells it is sampled in \
+                         (contour.cell)"
+                    .into(),
+            }
+        })?;
         let layers = Layers::new(heights, self.settings.first_height(), height);
         if layers.count() == 0 {
             let reason = format!(
@@ -253,9 +276,11 @@ impl<'a> Slicer<'a> {
     ) -> Result<Stream<'s>, SliceError> {
         let mixtures: Vec<Mixture> = colors::ids(palette).map(|c| palette.state(c)).collect();
         let states = self.machine.states(&mixtures)?;
+        let lead = self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume());
+        let resolved = self.resolved(palette, lead, &range);
         let mut comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION"))];
         comments.extend(self.head.iter().cloned());
-        comments.extend(head::lines(self.settings, self.machine));
+        comments.extend(head::lines(&resolved, self.machine));
         let options = WriterOptions {
             offset,
             comments,
@@ -263,11 +288,23 @@ impl<'a> Slicer<'a> {
             total_layers: u32::try_from(range.len()).ok(),
             ..WriterOptions::of(self.machine)
         };
-        let lead = self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume());
+        // A colour that cannot occur has no spot, and none is kept above its last layer.
+        let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
+        let mut next = (0..).map(ColorId);
+        let spots: Vec<Option<ColorId>> =
+            last.iter().map(|last| last.and_then(|_| next.next())).collect();
+        let purge = self.settings.purge.volume.unwrap_or(lead);
+        let mut towers = self.towers(last.iter().flatten().count(), purge, part, offset)?;
+        if let Some(towers) = &mut towers {
+            for (spot, last) in spots.iter().flatten().zip(last.iter().flatten()) {
+                towers.finish(*spot, *last);
+            }
+        }
         Ok(Stream {
             lead: Lead::with_volume(self.machine, lead),
             writer: Writer::new(out, self.machine, &states, &options)?,
-            towers: self.towers(palette, lead, part, offset, layers, range)?,
+            towers,
+            spots,
             palette,
             layers,
             threshold: self.settings.purge.threshold,
@@ -276,23 +313,22 @@ impl<'a> Slicer<'a> {
         })
     }
 
-    /// The purge towers, where they are wanted and there is something to purge.
+    /// Whether purge towers are wanted.
+    fn purges(&self) -> bool {
+        let usual = self.machine.kind != MachineKind::ToolChanger;
+        self.settings.slice.strategy == Strategy::Sectioned
+            && self.settings.purge.enabled.unwrap_or(usual)
+    }
+
+    /// The purge towers, one for each of so many colours, where there is something to purge.
     fn towers(
         &self,
-        palette: &Palette,
-        dead_volume: f64,
+        colors: usize,
+        volume: f64,
         part: &Bounds3,
         offset: Point3,
-        layers: Layers,
-        range: Range<usize>,
     ) -> Result<Option<Towers>, SliceError> {
-        let purge = &self.settings.purge;
-        let usual = self.machine.kind != MachineKind::ToolChanger;
-        let wanted = self.settings.slice.strategy == Strategy::Sectioned
-            && purge.enabled.unwrap_or(usual)
-            && palette.colors() > 1;
-        let volume = purge.volume.unwrap_or(dead_volume);
-        if !wanted || volume <= 0.0 {
+        if !self.purges() || volume <= 0.0 || colors < 2 {
             return Ok(None);
         }
         let bed = self.machine.bed.bounds().xy();
@@ -301,16 +337,27 @@ impl<'a> Slicer<'a> {
             volume,
             width: self.settings.layer.bead_width,
             height: self.settings.layer.height.min(self.settings.first_height()),
-            clearance: purge.clearance,
+            clearance: self.settings.purge.clearance,
             ..TowerOptions::default()
         };
         let around = part.xy().grown(self.settings.skirt_reach());
-        let mut towers = Towers::place(&around, &bed, palette.colors(), &options)?;
-        let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
-        for (color, last) in colors::ids(palette).zip(last) {
-            towers.finish(color, last);
-        }
-        Ok(Some(towers))
+        Ok(Some(Towers::place(&around, &bed, colors, &options)?))
+    }
+
+    /// The settings with what was left to the machine or to other settings.
+    fn resolved(&self, palette: &Palette, lead: f64, range: &Range<usize>) -> Settings {
+        let mut resolved = self.settings.clone();
+        let (least, most) = self.settings.bead_widths();
+        resolved.slice.first_layer = range.start + 1;
+        resolved.slice.last_layer = Some(range.end);
+        resolved.layer.first_height = Some(self.settings.first_height());
+        resolved.palette.colors = Some(ColorCount::Count(palette.colors()));
+        resolved.against.min_width = Some(least);
+        resolved.against.max_width = Some(most);
+        resolved.purge.enabled = Some(self.purges());
+        resolved.purge.volume = Some(self.settings.purge.volume.unwrap_or(lead));
+        resolved.lead.volume = Some(lead);
+        resolved
     }
 
     fn count(&self, planned: &PlannedLayer, report: &mut Report, seconds: &mut StageSeconds) {
@@ -338,6 +385,20 @@ impl<'a> Slicer<'a> {
         report.print_time_s = summary.print_time_s;
         report.materials = material_use(self.design, self.machine, &summary.filament_mm3);
     }
+}
+
+/// How many of the lowest layers have nothing to print: the tip of a sphere or of a tilted part.
+fn empty_below(job: &Job<'_>, end: usize) -> Result<usize, SliceError> {
+    let half = 0.5 * job.settings.layer.bead_width;
+    for index in 0..end {
+        let outline = job.outlines.get(&job.layers.get(index))?;
+        // Where a bead fits there is something to print; else planning tells.
+        if !job.inset.inset(&outline.region, half).is_empty() || !job.plan(index)?.pieces.is_empty()
+        {
+            return Ok(index);
+        }
+    }
+    Ok(0)
 }
 
 /// `count` indices spread evenly below `of`.

@@ -14,6 +14,8 @@ pub(crate) struct Stream<'a> {
     pub(crate) lead: Lead,
     pub(crate) writer: Writer<&'a mut dyn Write>,
     pub(crate) towers: Option<Towers>,
+    /// The spot of each colour that may occur.
+    pub(crate) spots: Vec<Option<ColorId>>,
     pub(crate) palette: &'a Palette,
     pub(crate) layers: Layers,
     /// Change of mixture above which a tower is printed.
@@ -52,13 +54,15 @@ impl Stream<'_> {
         };
         let purged = self.purged(&pieces);
         let mut all = Vec::with_capacity(pieces.len() + self.palette.colors());
-        towers.keep_others(&purged, hand, self.count, &mut all);
+        let spots: Vec<ColorId> = purged.iter().filter_map(|&color| self.spot(color)).collect();
+        towers.keep_others(&spots, hand, self.count, &mut all);
         let mut color = self.color;
         for piece in pieces {
             if color != Some(piece.color) {
-                if purged.contains(&piece.color) {
+                if let (true, Some(spot)) = (purged.contains(&piece.color), self.spot(piece.color))
+                {
                     let first = all.len();
-                    towers.purge(piece.color, self.count, &mut all);
+                    towers.purge(spot, self.count, &mut all);
                     let before = color.unwrap_or(piece.color);
                     all[first..].iter_mut().for_each(|block| block.color = before);
                 }
@@ -67,6 +71,10 @@ impl Stream<'_> {
             all.push(piece);
         }
         all
+    }
+
+    fn spot(&self, color: ColorId) -> Option<ColorId> {
+        self.spots.get(color.index()).copied().flatten()
     }
 
     /// The colours of a layer that the change to is worth a purge.

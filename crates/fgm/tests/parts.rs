@@ -116,7 +116,7 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(unknown, SliceError::Material(_)), "{unknown}");
 
     let mut thin = plain.clone();
-    thin.layer.height = 30.0;
+    (thin.layer.height, thin.layer.bead_width) = (30.0, 40.0);
     assert!(matches!(error(BOX, &thin), SliceError::NothingToPrint { .. }));
 
     let mut above = plain.clone();
@@ -130,6 +130,43 @@ fn what_cannot_be_is_refused() {
     let mut wide = plain;
     wide.palette.zipper = "0.25".parse().unwrap();
     assert!(matches!(error(BOX, &wide), SliceError::Palette(_)));
+}
+
+#[test]
+fn a_part_on_its_tip_stands_on_the_bed() {
+    let tip = r#"fgrade(["x/10 + 0.5", "0.5 - x/10"], ["a", "b"]) {
+        scale(1, 1, 5) { rotate(0, 45, 0) { rotate(35.264, 0, 0) { cube(3); } } } }"#;
+    let (report, gcode) = slice(&parse(tip), "generic-mixing", &settings(Strategy::Sectioned, 4));
+    let text = String::from_utf8(gcode).unwrap();
+    let first = text.lines().find(|l| l.starts_with(";Z:")).unwrap();
+    assert_eq!(first, ";Z:0.2");
+    let extrudes = |l: &&str| l.starts_with("G1 X") && l.contains(" E");
+    let layers: Vec<&str> = text.split(";LAYER_CHANGE").collect();
+    assert!(layers[1].lines().any(|l| extrudes(&l)), "the first layer has beads");
+    assert!(!report.warnings.is_empty(), "what was left out is told");
+}
+
+#[test]
+fn towers_are_for_colors_that_occur() {
+    let purge = |fraction: &str, height: f64| {
+        let part = format!(
+            r#"fgrade(["{fraction}", "1 - ({fraction})"], ["a", "b"]) {{ cylinder(5, {height}); }}"#
+        );
+        slice(&parse(&part), "generic-mixing", &settings(Strategy::Sectioned, 16)).0.purge_mm3
+    };
+    assert_eq!(purge("0.47", 4.0), 0.0, "one colour, nothing to purge");
+    let upwards = purge("z/4", 4.0);
+    assert!(upwards > 15.0 * 68.0 && upwards < 3500.0, "{upwards}");
+}
+
+#[test]
+fn the_head_tells_every_setting() {
+    let (_, gcode) = slice(&parse(BOX), "generic-mixing", &settings(Strategy::Sectioned, 2));
+    let text = String::from_utf8(gcode).unwrap();
+    for info in fgm::SETTINGS {
+        let line = format!("; {}.{} = ", info.section, info.key);
+        assert!(text.lines().any(|l| l.starts_with(&line)), "{line}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 use std::{
     fs,
     io::{self, IsTerminal, Write},
-    path::Path,
+    path::{Path, PathBuf},
     time::Instant,
 };
 
@@ -15,7 +15,7 @@ use toml::{Table, Value};
 use crate::{
     args::{DesignArguments, SettingSources, SliceArguments, Switch},
     failure::Failure,
-    output::Output,
+    output::{Output, folder_of},
     overrides,
     progress::Terminal,
 };
@@ -23,6 +23,7 @@ use crate::{
 /// Slices a design into a file of G-code.
 pub(crate) fn run(arguments: &SliceArguments) -> Result<(), Failure> {
     let start = Instant::now();
+    check_places(arguments)?;
     let settings = settings(arguments)?;
     let machine = machine(&arguments.printer, &settings)?;
     let settings = with_lead_length(settings, arguments);
@@ -61,6 +62,39 @@ pub(crate) fn run(arguments: &SliceArguments) -> Result<(), Failure> {
         summary(&report, &arguments.output);
     }
     Ok(())
+}
+
+/// That nothing which is read, and no other output, is written over.
+fn check_places(arguments: &SliceArguments) -> Result<(), Failure> {
+    let real = |path: &Path| -> Option<PathBuf> {
+        if path.as_os_str() == "-" {
+            return None;
+        }
+        let named = || Some(fs::canonicalize(folder_of(path)).ok()?.join(path.file_name()?));
+        fs::canonicalize(path).ok().or_else(named)
+    };
+    let read = [
+        ("the design", Some(arguments.design.design.as_path())),
+        ("the settings", arguments.settings.file.as_deref()),
+        ("the printer's profile", Some(Path::new(&arguments.printer))),
+    ];
+    let report = arguments.report.as_deref();
+    let outputs = [("-o", Some(arguments.output.as_path())), ("--report", report)];
+    for (option, output) in outputs {
+        let Some(output) = output.filter(|path| path.is_file()) else { continue };
+        for (what, input) in read {
+            if input.is_some_and(|input| input.is_file() && real(input) == real(output)) {
+                let place = output.display();
+                return Err(Failure::usage(format!("{option} {place} would overwrite {what}")));
+            }
+        }
+    }
+    match report {
+        Some(report) if real(report).is_some() && real(report) == real(&arguments.output) => {
+            Err(Failure::usage(format!("-o and --report both name {}", report.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Reads a design with the options of the command line.
@@ -117,7 +151,19 @@ fn settings(arguments: &SliceArguments) -> Result<Settings, Failure> {
     put(["purge", "enabled"], a.purge.map(|p| Value::Boolean(p == Switch::On)));
     put(["lead", "volume"], a.dead_volume.map(Value::Float));
     for text in &arguments.settings.set {
+        // Alone first, so that a mistake is told with what was typed.
+        let mut alone = Table::new();
+        overrides::set(&mut alone, text)?;
+        let read = alone.try_into::<Settings>();
+        read.map_err(|e| Failure::usage(format!("--set {text}: {}", e.message())))?;
         overrides::set(&mut table, text)?;
+    }
+    if let Some(lead) = arguments.lead.filter(|lead| !(0.0..=1e6).contains(lead)) {
+        return Err(Failure::usage(format!("--lead {lead}: 0 to 1000000 mm is possible")));
+    }
+    if let Some(threads) = arguments.threads.filter(|threads| *threads > fgm::MAX_THREADS) {
+        let most = fgm::MAX_THREADS;
+        return Err(Failure::usage(format!("--threads {threads}: at most {most} are possible")));
     }
     let settings: Settings =
         table.try_into().map_err(|e| Failure::usage(format!("settings: {}", e.message())))?;
