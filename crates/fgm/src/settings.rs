@@ -96,7 +96,7 @@ settings! {
         #[doc = "How far a simplified contour may lie from the true one."]
         tolerance: f64 = 0.01, "0.01", "mm";
         #[doc = "How far a printed path may lie from the exact one."]
-        resolution: f64 = 0.005, "0.005", "mm";
+        resolution: f64 = 0.01, "0.01", "mm";
         #[doc = "How far a vertex may lie from the true contour before simplification."]
         root: f64 = 1e-6, "1e-6", "mm";
     }
