@@ -14,6 +14,9 @@ use crate::inset::{clipper::nest, grid::EdgeGrid};
 const SLACK: f64 = 1e-5;
 /// Edges are looked at in parts this long, in radii.
 const LONGEST: f64 = 3.0;
+/// The same where something thick may hide between the ends of such parts. What hides between
+/// these is so little thicker than thin that it is filled as thin.
+const SHORT: f64 = 0.75;
 /// A bay that stays this near the centre of its disc, in radii, is a corner and no thin part.
 const CORNER: f64 = 2.1;
 /// `1 + cos` of the turn from which on a moved corner would lie too far away.
@@ -60,28 +63,43 @@ struct Cut {
 
 /// Cuts a polygon where it is thinner than `2 * radius`; `None` where the cuts do not work out.
 pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
-    let sides = sides(polygon, radius)?;
+    let coarse = sides(polygon, radius, LONGEST)?;
+    let runs = all_runs(&coarse);
+    if hides_more(&coarse, &runs) {
+        let fine = sides(polygon, radius, SHORT)?;
+        let runs = all_runs(&fine);
+        return cut_up(polygon, radius, &fine, &runs);
+    }
+    cut_up(polygon, radius, &coarse, &runs)
+}
+
+/// The runs of the rings that fit in part.
+fn all_runs(sides: &[Side]) -> Vec<Run> {
+    let mut runs = Vec::new();
+    for (index, side) in sides.iter().enumerate() {
+        if side.fits.contains(&true) && side.fits.contains(&false) {
+            runs_of(side, index, &mut runs);
+        }
+    }
+    runs
+}
+
+fn cut_up(polygon: &Polygon, radius: f64, sides: &[Side], runs: &[Run]) -> Option<Split> {
     if sides.iter().all(|s| s.fits.iter().all(|&f| f)) {
         return Some(Split { thick: vec![polygon.clone()], thin: Vec::new(), whole: true });
     }
     let mut thick = Vec::new();
     let mut thin = Vec::new();
-    let mut runs = Vec::new();
-    for (index, side) in sides.iter().enumerate() {
+    for side in sides {
         if side.fits.iter().all(|&f| f) {
             thick.push(Ring::new(side.points.clone()));
         } else if !side.fits.contains(&true) {
             thin.push(Ring::new(side.points.clone()));
-        } else {
-            runs_of(side, index, &mut runs);
         }
     }
-    if hides_more(&sides, &runs) {
-        return None;
-    }
-    let cuts = cuts(&sides, &runs, radius)?;
-    thick_rings(&sides, &runs, &cuts, &mut thick)?;
-    thin_rings(&sides, &runs, &cuts, &mut thin)?;
+    let cuts = cuts(sides, runs, radius)?;
+    thick_rings(sides, runs, &cuts, &mut thick)?;
+    thin_rings(sides, runs, &cuts, &mut thin)?;
     let split =
         Split { thick: nest(thick.into_iter()), thin: nest(thin.into_iter()), whole: false };
     let area = |p: &[Polygon]| p.iter().map(Polygon::area).sum::<f64>();
@@ -90,13 +108,14 @@ pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
     ((sum - whole).abs() < 1e-6 * (1.0 + whole)).then_some(split)
 }
 
-fn sides(polygon: &Polygon, radius: f64) -> Option<Vec<Side>> {
+/// The rings, their edges cut into parts of at most `longest` radii.
+fn sides(polygon: &Polygon, radius: f64, longest: f64) -> Option<Vec<Side>> {
     let edges: Vec<_> = polygon.rings().flat_map(Ring::edges).collect();
     let grid = EdgeGrid::new(edges, 1.5 * radius);
     let mut sides = Vec::new();
     let mut first = 0;
     for ring in polygon.rings() {
-        let (points, sources) = subdivided(ring, LONGEST * radius, first);
+        let (points, sources) = subdivided(ring, longest * radius, first);
         first += ring.points.len() as u32;
         let (moved, blunt) = moved(&points, radius)?;
         let n = points.len();
