@@ -9,7 +9,7 @@
 //!
 //! | group | items |
 //! |---|---|
-//! | machines | [`Machine`], [`MachineKind`], [`Bed`], [`DialectOptions`], [`LeadOptions`], [`Temperatures`], [`Foaming`], [`Speeds`], [`MotionLimits`], [`Retraction`], [`Fan`], [`ToolChanging`], [`Templates`], [`VARIABLES`] |
+//! | machines | [`Machine`], [`MachineKind`], [`Bed`], [`DialectOptions`], [`LeadOptions`], [`TransitionOptions`], [`Temperatures`], [`Foaming`], [`Speeds`], [`MotionLimits`], [`Retraction`], [`Fan`], [`ToolChanging`], [`Templates`], [`VARIABLES`] |
 //! | colours | [`State`], [`Machine::states`], [`safe_ratios`] |
 //! | look-ahead | [`Lead`], [`Led`], [`Step`] |
 //! | dialects | [`Dialect`], [`Change`], [`Move`], [`Text`], [`Fixed`]; [`MarlinMixing`], [`MarlinDirect`], [`RepRap`], [`Kalico`], [`Repetier`], [`ToolChange`], [`PrusaXl`], [`Foam`] |
@@ -94,7 +94,7 @@ pub use lead::{Lead, Led};
 pub use machine::MachineError;
 pub use machine::{
     Bed, DialectName, DialectOptions, Fan, Foaming, LeadOptions, Machine, MachineKind,
-    MotionLimits, Retraction, Speeds, Temperatures, Templates, ToolChanging,
+    MotionLimits, Retraction, Speeds, Temperatures, Templates, ToolChanging, TransitionOptions,
 };
 pub use ratio::safe_ratios;
 pub use reader::{Arguments, Code, Command, Line, Lines, Pairs, Reader, Word, lines};

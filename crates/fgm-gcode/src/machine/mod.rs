@@ -9,7 +9,7 @@ mod validate;
 pub use bed::Bed;
 pub use parts::{
     DialectName, DialectOptions, Fan, Foaming, LeadOptions, MotionLimits, Retraction, Speeds,
-    Temperatures, Templates, ToolChanging,
+    Temperatures, Templates, ToolChanging, TransitionOptions,
 };
 #[cfg(feature = "serde")]
 pub use profile::MachineError;
@@ -65,6 +65,8 @@ pub struct Machine {
     pub dialect: DialectOptions,
     /// Extrusion between a command and its effect.
     pub lead: LeadOptions,
+    /// How the deposit follows a command, where it was measured.
+    pub transition: TransitionOptions,
     /// Temperatures.
     pub temperature: Temperatures,
     /// The foaming filament, where there is one.
@@ -100,6 +102,7 @@ impl Default for Machine {
             bed: Bed::default(),
             dialect: DialectOptions::default(),
             lead: LeadOptions::default(),
+            transition: TransitionOptions::default(),
             temperature: Temperatures::default(),
             foaming: Foaming::default(),
             speed: Speeds::default(),
@@ -116,6 +119,8 @@ impl Machine {
     /// Volume extruded between a command and its arrival at the nozzle's tip, mm³; on a tool
     /// changer, how far ahead of its use a head is heated.
     ///
+    /// Where the profile gives no lead but a transition, that is the transition's middle.
+    ///
     /// ```
     /// use fgm_gcode::{LeadOptions, Machine};
     /// let lead = LeadOptions { length: Some(960.0), ..LeadOptions::default() };
@@ -123,7 +128,7 @@ impl Machine {
     /// assert!((machine.dead_volume() - 68.56).abs() < 0.01);
     /// ```
     pub fn dead_volume(&self) -> f64 {
-        self.lead.volume()
+        self.lead.volume().or(self.transition.middle()).unwrap_or(0.0)
     }
 
     /// How many colours a palette may have, where the heads limit it.

@@ -80,10 +80,46 @@ part!(
 
 impl LeadOptions {
     /// The volume, mm³: `length * A` with the section of [`bead::area`] where only a length is
-    /// given, 0 where nothing is.
-    pub fn volume(&self) -> f64 {
+    /// given; none where nothing is.
+    pub fn volume(&self) -> Option<f64> {
         let measured = || self.length.map(|l| l * bead::area(self.bead_width, self.layer_height));
-        self.volume.or_else(measured).unwrap_or(0.0)
+        self.volume.or_else(measured)
+    }
+}
+
+part!(
+    /// How the deposit follows a command: nothing for a delay, then a linear change over a length.
+    /// Each a volume, or the length of a bead of a given section.
+    TransitionOptions {
+        /// Volume before the change begins, mm³; goes before `delay_length`.
+        delay: Option<f64> = None,
+        /// Volume that the change takes, mm³; goes before `change_length`.
+        change: Option<f64> = None,
+        /// Bead laid down before the change begins, mm: L1 of the active-mixing paper.
+        delay_length: Option<f64> = None,
+        /// Bead laid down during the change, mm: L2 of the active-mixing paper.
+        change_length: Option<f64> = None,
+        /// The measured bead's height, mm.
+        layer_height: f64 = 0.2,
+        /// The measured bead's width, mm.
+        bead_width: f64 = 0.4,
+    }
+);
+
+impl TransitionOptions {
+    /// Volumes before and during the change, mm³; none where neither is given. A length counts by
+    /// the section of [`bead::area`].
+    pub fn volumes(&self) -> Option<(f64, f64)> {
+        let area = bead::area(self.bead_width, self.layer_height);
+        let delay = self.delay.or(self.delay_length.map(|length| length * area));
+        let change = self.change.or(self.change_length.map(|length| length * area));
+        (delay.is_some() || change.is_some())
+            .then_some((delay.unwrap_or(0.0), change.unwrap_or(0.0)))
+    }
+
+    /// Volume from a command to the middle of its change, mm³; none where no transition is given.
+    pub fn middle(&self) -> Option<f64> {
+        self.volumes().map(|(delay, change)| delay + 0.5 * change)
     }
 }
 
@@ -278,11 +314,29 @@ mod tests {
     #[test]
     fn a_volume_goes_before_a_length() {
         let mut lead = LeadOptions::default();
-        assert_eq!(lead.volume(), 0.0);
+        assert_eq!(lead.volume(), None);
         lead.length = Some(960.0);
-        assert!((lead.volume() - 68.559).abs() < 1e-3);
+        assert!((lead.volume().unwrap() - 68.559).abs() < 1e-3);
         lead.volume = Some(5.0);
-        assert_eq!(lead.volume(), 5.0);
+        assert_eq!(lead.volume(), Some(5.0));
+    }
+
+    #[test]
+    fn a_transition_is_two_volumes_or_two_lengths() {
+        let mut transition = TransitionOptions::default();
+        assert_eq!((transition.volumes(), transition.middle()), (None, None));
+        transition.change = Some(4.0);
+        assert_eq!((transition.volumes(), transition.middle()), (Some((0.0, 4.0)), Some(2.0)));
+        // L1 = 9 mm, L2 = 18 mm of a bead of 2 x 0.8 mm.
+        let measured = TransitionOptions {
+            delay_length: Some(9.0),
+            change_length: Some(18.0),
+            layer_height: 0.8,
+            bead_width: 2.0,
+            ..TransitionOptions::default()
+        };
+        let (delay, change) = measured.volumes().unwrap();
+        assert!((delay - 13.164).abs() < 1e-3 && (change - 2.0 * delay).abs() < 1e-9);
     }
 
     #[test]

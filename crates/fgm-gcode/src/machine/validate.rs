@@ -30,7 +30,6 @@ impl Machine {
         check("nozzle", self.nozzle, &POSITIVE)?;
         check("filament_diameter", self.filament_diameter, &POSITIVE)?;
         check("filament_density", self.filament_density, &POSITIVE)?;
-        check("filament_density", self.filament_density, &POSITIVE)?;
         check("min_fraction", self.min_fraction, &Range(0.0, 0.1, "0 to 0.1"))?;
         option("max_bead_area", self.max_bead_area, &POSITIVE)?;
         option("max_flow", self.max_flow, &POSITIVE)?;
@@ -45,6 +44,13 @@ impl Machine {
         option("lead.length", self.lead.length, &NOT_NEGATIVE)?;
         check("lead.layer_height", self.lead.layer_height, &POSITIVE)?;
         check("lead.bead_width", self.lead.bead_width, &POSITIVE)?;
+        let t = &self.transition;
+        option("transition.delay", t.delay, &NOT_NEGATIVE)?;
+        option("transition.change", t.change, &NOT_NEGATIVE)?;
+        option("transition.delay_length", t.delay_length, &NOT_NEGATIVE)?;
+        option("transition.change_length", t.change_length, &NOT_NEGATIVE)?;
+        check("transition.layer_height", t.layer_height, &POSITIVE)?;
+        check("transition.bead_width", t.bead_width, &POSITIVE)?;
         self.settings(&check)?;
         template::check(&self.template)
     }
