@@ -1,11 +1,8 @@
 use std::{collections::VecDeque, convert::Infallible};
 
-use fgm_core::{ColorId, Motion, Point2, Role, bead};
+use fgm_core::{ColorId, Motion, Role};
 
-use crate::{Machine, MachineKind, Step};
-
-/// Pieces shorter than this are not split off, mm: no machine could place them.
-const SHORTEST: f64 = 1e-4;
+use crate::{Machine, MachineKind, MotionQueue, Step};
 
 /// Moves every change of colour up by a volume of extrusion: the dead volume between the place
 /// where the colour is made and the nozzle's tip.
@@ -50,24 +47,8 @@ const SHORTEST: f64 = 1e-4;
 pub struct Lead {
     volume: f64,
     early: bool,
-    flow: [f64; Role::ALL.len()],
-    held: VecDeque<Held>,
+    queue: MotionQueue,
     color: Option<ColorId>,
-    at: Option<Point2>,
-    height: f64,
-    /// Everything extruded so far, mm³.
-    total: f64,
-}
-
-/// A motion that a command may still have to come before.
-#[derive(Clone, Copy, Debug)]
-struct Held {
-    motion: Motion,
-    /// Where an extrusion begins.
-    from: Point2,
-    /// What was extruded before and after it, mm³.
-    start: f64,
-    end: f64,
 }
 
 impl Lead {
@@ -76,12 +57,8 @@ impl Lead {
         Self {
             volume: if volume > 0.0 { volume } else { 0.0 },
             early: true,
-            flow: [1.0; Role::ALL.len()],
-            held: VecDeque::new(),
+            queue: MotionQueue::default(),
             color: None,
-            at: None,
-            height: 0.0,
-            total: 0.0,
         }
     }
 
@@ -107,7 +84,7 @@ impl Lead {
     /// Counts the beads of a role with a factor, as they are extruded.
     #[must_use]
     pub fn with_flow(mut self, role: Role, factor: f64) -> Self {
-        self.flow[role as usize] = factor;
+        self.queue.set_flow(role, factor);
         self
     }
 
@@ -120,26 +97,11 @@ impl Lead {
         motion: Motion,
         mut emit: impl FnMut(Step) -> Result<(), E>,
     ) -> Result<(), E> {
-        match motion {
-            Motion::Layer { height, .. } => self.height = height,
-            Motion::Travel { to } => self.at = Some(to),
-            Motion::Color(color) => return self.color(color, &mut emit),
-            Motion::Command(_) => {}
-            Motion::Extrude { to, width, role } => {
-                let from = self.at.replace(to).unwrap_or(to);
-                let area = bead::area(width, self.height) * self.flow[role as usize];
-                let volume = from.distance(to) * area;
-                let start = self.total;
-                // What is no number is left to the writer, which says where it is.
-                if volume.is_finite() {
-                    self.total += volume;
-                }
-                self.held.push_back(Held { motion, from, start, end: self.total });
-                return self.release(self.total - self.volume, &mut emit);
-            }
+        if let Motion::Color(color) = motion {
+            return self.color(color, &mut emit);
         }
-        self.hold(motion);
-        self.release(self.total - self.volume, &mut emit)
+        self.queue.push(motion);
+        self.release(&mut emit)
     }
 
     /// Emits what is held: the print is over.
@@ -147,7 +109,7 @@ impl Lead {
     /// # Errors
     /// Those of `emit`.
     pub fn finish<E>(mut self, mut emit: impl FnMut(Step) -> Result<(), E>) -> Result<(), E> {
-        self.release(f64::INFINITY, &mut emit)
+        self.queue.release(f64::INFINITY, &mut |motion| emit(motion.into()))
     }
 
     /// An iterator over the steps for an iterator of motions.
@@ -162,13 +124,8 @@ impl Lead {
     ) -> impl Iterator<Item = Motion> {
         self.over(motions).filter_map(|step| match step {
             Step::Motion(motion) => Some(motion),
-            Step::Notice(_) => None,
+            Step::Notice(_) | Step::Tell { .. } | Step::Flow(_) => None,
         })
-    }
-
-    fn hold(&mut self, motion: Motion) {
-        let at = self.at.unwrap_or_default();
-        self.held.push_back(Held { motion, from: at, start: self.total, end: self.total });
     }
 
     fn color<E>(
@@ -177,58 +134,24 @@ impl Lead {
         emit: &mut impl FnMut(Step) -> Result<(), E>,
     ) -> Result<(), E> {
         let first = self.color.is_none();
-        let due = self.total - self.volume;
         if self.color.replace(color) != Some(color) {
-            self.release(due, emit)?;
-            self.split(due, emit)?;
+            let due = self.queue.total() - self.volume;
+            self.queue.release_exactly(due, &mut |motion| emit(motion.into()))?;
             if self.early || first {
                 emit(Step::Motion(Motion::Command(color)))?;
             } else {
                 emit(Step::Notice(color))?;
-                self.hold(Motion::Command(color));
+                self.queue.push(Motion::Command(color));
             }
         }
-        self.hold(Motion::Color(color));
-        self.release(due, emit)
+        self.queue.push(Motion::Color(color));
+        self.release(emit)
     }
 
-    /// Emits the motions that end at `due` or before.
-    fn release<E>(
-        &mut self,
-        due: f64,
-        emit: &mut impl FnMut(Step) -> Result<(), E>,
-    ) -> Result<(), E> {
-        while self.held.front().is_some_and(|held| held.end <= due) {
-            if let Some(held) = self.held.pop_front() {
-                emit(Step::Motion(held.motion))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Emits the part of the first motion held that lies before `due`.
-    fn split<E>(
-        &mut self,
-        due: f64,
-        emit: &mut impl FnMut(Step) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let Some(front) = self.held.front_mut().filter(|held| held.start < due) else {
-            return Ok(());
-        };
-        let Motion::Extrude { to, width, role } = front.motion else { return Ok(()) };
-        let share = (due - front.start) / (front.end - front.start);
-        let length = front.from.distance(to);
-        if share * length < SHORTEST {
-            return Ok(());
-        }
-        if (1.0 - share) * length < SHORTEST {
-            emit(Step::Motion(front.motion))?;
-            self.held.pop_front();
-            return Ok(());
-        }
-        let middle = front.from.lerp(to, share);
-        (front.from, front.start) = (middle, due);
-        emit(Step::Motion(Motion::Extrude { to: middle, width, role }))
+    /// Emits what no command can come before any more.
+    fn release<E>(&mut self, emit: &mut impl FnMut(Step) -> Result<(), E>) -> Result<(), E> {
+        let due = self.queue.total() - self.volume;
+        self.queue.release(due, &mut |motion| emit(motion.into()))
     }
 }
 

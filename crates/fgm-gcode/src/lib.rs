@@ -11,7 +11,7 @@
 //! |---|---|
 //! | machines | [`Machine`], [`MachineKind`], [`Bed`], [`DialectOptions`], [`LeadOptions`], [`TransitionOptions`], [`Temperatures`], [`Foaming`], [`Speeds`], [`MotionLimits`], [`Retraction`], [`Fan`], [`ToolChanging`], [`Templates`], [`VARIABLES`] |
 //! | colours | [`State`], [`Machine::states`], [`safe_ratios`] |
-//! | look-ahead | [`Lead`], [`Led`], [`Step`] |
+//! | look-ahead | [`Lead`], [`Led`], [`MotionQueue`], [`Step`] |
 //! | dialects | [`Dialect`], [`Change`], [`Move`], [`Text`], [`Fixed`]; [`MarlinMixing`], [`MarlinDirect`], [`RepRap`], [`Kalico`], [`Repetier`], [`ToolChange`], [`PrusaXl`], [`Foam`] |
 //! | writing | [`Writer`], [`WriterOptions`], [`Summary`], [`TimeEstimate`] |
 //! | reading | [`Reader`], [`lines`], [`Line`], [`Command`], [`Code`], [`Word`] |
@@ -74,6 +74,7 @@ mod error;
 mod fixed;
 mod lead;
 mod machine;
+mod queue;
 mod ratio;
 mod reader;
 mod state;
@@ -96,6 +97,7 @@ pub use machine::{
     Bed, DialectName, DialectOptions, Fan, Foaming, LeadOptions, Machine, MachineKind,
     MotionLimits, Retraction, Speeds, Temperatures, Templates, ToolChanging, TransitionOptions,
 };
+pub use queue::MotionQueue;
 pub use ratio::safe_ratios;
 pub use reader::{Arguments, Code, Command, Line, Lines, Pairs, Reader, Word, lines};
 pub use state::State;

@@ -167,7 +167,7 @@ fn notices_come_early_and_commands_stay() {
             Step::Motion(Motion::Command(c)) => format!("command {}", c.0),
             Step::Motion(Motion::Color(c)) => format!("colour {}", c.0),
             Step::Motion(Motion::Extrude { to, .. }) => format!("{:.0},{:.0}", to.x, to.y),
-            Step::Motion(_) => "-".into(),
+            Step::Motion(_) | Step::Tell { .. } | Step::Flow(_) => "-".into(),
         })
         .collect();
     let expected = "command 0 - colour 0 - 80,0 notice 1 100,0 command 1 colour 1 100,50";

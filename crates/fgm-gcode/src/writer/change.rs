@@ -8,8 +8,9 @@ use crate::{GcodeError, State, dialect::Change};
 /// The colour, and the heads of a tool changer.
 #[derive(Clone, Debug)]
 pub(super) struct Heads {
-    /// Commanded last.
+    /// Commanded last: the colour, and what the machine was told for it.
     pub(super) color: ColorId,
+    pub(super) state: State,
     /// Whether the stream has commands of its own.
     led: bool,
     active: usize,
@@ -27,9 +28,11 @@ struct Head {
 }
 
 impl Heads {
-    pub(super) fn new(states: &[State]) -> Self {
+    /// Heads for the states of a palette, of which `first` is one.
+    pub(super) fn new(states: &[State], first: State) -> Self {
         let count = states.iter().map(Self::tool).max().unwrap_or(0) as usize + 1;
-        Self { color: ColorId(0), led: false, active: 0, heads: vec![Head::default(); count] }
+        let heads = vec![Head::default(); count];
+        Self { color: ColorId(0), state: first, led: false, active: 0, heads }
     }
 
     /// The head of a state; 0 where there is one only.
@@ -38,9 +41,9 @@ impl Heads {
         state.tool.unwrap_or(0).min(255)
     }
 
-    pub(super) fn begin(&mut self, color: ColorId, tool: u32) {
-        self.color = color;
-        self.take(tool as usize);
+    pub(super) fn begin(&mut self, color: ColorId, state: State) {
+        (self.color, self.state) = (color, state);
+        self.take(Self::tool(&state) as usize);
     }
 
     /// Makes a head the active one; whether it is its first use.
@@ -61,19 +64,38 @@ impl<W: io::Write> Writer<W> {
     /// The machine is told another colour.
     pub(super) fn command(&mut self, color: ColorId) -> Result<(), GcodeError> {
         self.heads.led = true;
-        self.change(color)
+        let state = self.state(color)?;
+        self.change(color, state)
+    }
+
+    /// The machine is told a state that need not be the palette's.
+    pub(super) fn tell(&mut self, color: ColorId, state: State) -> Result<(), GcodeError> {
+        self.heads.led = true;
+        let least = self.options.temperatures.min_extrusion;
+        if let Some(celsius) = state.temperature.filter(|t| t.is_nan() || *t < least) {
+            let what = format!("a state between colours, as colour {}", color.0);
+            return Err(GcodeError::Cold { what, celsius, least });
+        }
+        let heads = Heads::tool(&state) as usize + 1;
+        if heads > self.heads.heads.len() {
+            self.heads.heads.resize(heads, Head::default());
+        }
+        self.change(color, state)
     }
 
     /// The deposit takes on another colour.
     pub(super) fn deposit(&mut self, color: ColorId) -> Result<(), GcodeError> {
-        if !self.heads.led {
-            self.change(color)?;
-        }
         let state = self.state(color)?;
-        if state.flow == self.bead.state_flow {
-            return Ok(());
+        if !self.heads.led {
+            self.change(color, state)?;
         }
-        self.set_flow(&state)
+        if state.flow == self.bead.state_flow { Ok(()) } else { self.set_flow(&state) }
+    }
+
+    /// Another factor on the fed filament.
+    pub(super) fn flow(&mut self, flow: f64) -> Result<(), GcodeError> {
+        let state = State { flow, ..self.heads.state };
+        if flow == self.bead.state_flow { Ok(()) } else { self.set_flow(&state) }
     }
 
     /// Extrudes by the flow of a state from here on.
@@ -103,16 +125,15 @@ impl<W: io::Write> Writer<W> {
 
     /// Counts the filament fed in the state that ends.
     pub(super) fn count_fed(&mut self) {
-        if let Ok(state) = self.state(self.heads.color) {
-            self.summary.feed(self.machine.kind, &state, std::mem::take(&mut self.fed));
-        }
+        let fed = std::mem::take(&mut self.fed);
+        self.summary.feed(self.machine.kind, &self.heads.state, fed);
     }
 
-    fn change(&mut self, color: ColorId) -> Result<(), GcodeError> {
-        if color == self.heads.color {
+    fn change(&mut self, color: ColorId, state: State) -> Result<(), GcodeError> {
+        let previous = self.heads.state;
+        if color == self.heads.color && state == previous {
             return Ok(());
         }
-        let (state, previous) = (self.state(color)?, self.state(self.heads.color)?);
         self.count_fed();
         let (tool, old) = (Heads::tool(&state) as usize, self.heads.active);
         let swap = self.is_tool_changer() && tool != old;
@@ -131,7 +152,7 @@ impl<W: io::Write> Writer<W> {
         let set = self.set_state(&change, &mut text);
         self.text = text;
         set?;
-        self.heads.color = color;
+        (self.heads.color, self.heads.state) = (color, state);
         self.summary.state_changes += 1;
         let first_use = self.heads.take(tool);
         if swap {

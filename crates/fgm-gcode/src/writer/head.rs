@@ -19,7 +19,7 @@ impl<W: io::Write> Writer<W> {
             standby: None,
         };
         self.set_state(&change, &mut setting)?;
-        self.heads.begin(color, Heads::tool(&state));
+        self.heads.begin(color, state);
 
         let start = std::mem::take(&mut self.machine.template.start);
         self.heat(&start, &state);
@@ -109,7 +109,7 @@ impl<W: io::Write> Writer<W> {
     pub(super) fn tail(&mut self) -> Result<(), GcodeError> {
         self.retract(self.options.retraction.length)?;
         self.dialect.end(&mut self.text);
-        let state = self.state(self.heads.color)?;
+        let state = self.heads.state;
         let end = std::mem::take(&mut self.machine.template.end);
         let rendered = template::render("end", &end, &|name| match name {
             "initial_state" => Some(String::new()),

@@ -40,7 +40,7 @@ impl<W: io::Write> Writer<W> {
     /// Other temperatures than the first layer's.
     fn after_first_layer(&mut self) -> Result<(), GcodeError> {
         let t = &self.options.temperatures;
-        let state = self.state(self.heads.color)?;
+        let state = self.heads.state;
         if state.temperature.is_none() && t.nozzle != t.first_layer {
             self.dialect.temperature(state.tool, t.nozzle, false, &mut self.text);
         }

@@ -92,9 +92,7 @@ impl<W: io::Write> Writer<W> {
         used.motion = options.limits.clone();
         used.max_flow = options.max_flow;
         used.validate()?;
-        if states.is_empty() {
-            return Err(GcodeError::NoColors);
-        }
+        let first = *states.first().ok_or(GcodeError::NoColors)?;
         let inputs = Summary::inputs(machine.kind, states, machine.inputs);
         let writer = Self {
             out,
@@ -106,7 +104,7 @@ impl<W: io::Write> Writer<W> {
             options: options.clone(),
             dialect,
             early: Some(Vec::new()),
-            heads: Heads::new(states),
+            heads: Heads::new(states, first),
             bead: Bead::default(),
             fed: 0.0,
             summary: Summary::new(inputs),
@@ -124,7 +122,8 @@ impl<W: io::Write> Writer<W> {
         let step = step.into();
         if let Some(early) = &mut self.early {
             let color = match step {
-                Step::Motion(Motion::Command(color) | Motion::Color(color)) => color,
+                Step::Motion(Motion::Command(color) | Motion::Color(color))
+                | Step::Tell { color, .. } => color,
                 Step::Motion(Motion::Extrude { .. }) => ColorId(0),
                 _ if early.len() >= EARLIEST => ColorId(0),
                 _ => {
@@ -172,6 +171,8 @@ impl<W: io::Write> Writer<W> {
             Step::Motion(Motion::Command(color)) => self.command(color),
             Step::Motion(Motion::Color(color)) => self.deposit(color),
             Step::Notice(color) => self.notice(color),
+            Step::Tell { color, state } => self.tell(color, state),
+            Step::Flow(flow) => self.flow(flow),
         }
     }
 
