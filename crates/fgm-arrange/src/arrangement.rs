@@ -84,7 +84,7 @@ impl Arranger {
         self.ranks.clear();
         self.ranks.extend(chains.iter().map(|chain| rank(&chain.label)));
         self.graph.build(&self.noder, &self.ranks, options.keep_dangling);
-        let topology = Topology::build(&mut self.noder, &self.graph);
+        let topology = Topology::build(&mut self.noder, &mut self.graph);
         let label =
             |&key: &u32| EdgeLabel { label: ranked[key as usize >> 1], forward: key & 1 == 1 };
         let labels = topology.labels.iter().map(label).collect();

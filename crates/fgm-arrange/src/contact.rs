@@ -1,3 +1,4 @@
+use crate::memory;
 use crate::piece::for_pairs;
 use crate::predicate::{cross_near, crossing, orient, passes};
 use crate::slots::Slots;
@@ -52,6 +53,13 @@ impl Contacts {
                 for_pairs((points, a), (points, b), |i, j| self.pair(points, i, j));
             }
         });
+    }
+
+    /// Gives back what a large input needed.
+    pub(crate) fn rest(&mut self) {
+        memory::rest(&mut self.crossings);
+        memory::rest(&mut self.passes);
+        memory::rest(&mut self.shared);
     }
 
     #[inline]

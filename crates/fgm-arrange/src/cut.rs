@@ -1,8 +1,8 @@
-use crate::piece::{self, Piece, for_pairs, overlap, segment_reaches};
+use crate::piece::{self, Piece, for_pairs};
 use crate::predicate::orient_any;
 use crate::topology::{NONE, Topology};
 use crate::{Arrangement, FaceId};
-use fgm_core::{Bounds2, Point2, Span, point_at};
+use fgm_core::{Point2, Span, point_at};
 
 /// A side of a contact whose face is not known.
 const VAGUE: u32 = NONE - 1;
@@ -107,18 +107,19 @@ impl<'a, L> Cutter<'a, L> {
         found.contacts.clear();
         found.along.clear();
         for piece in &*pieces {
-            let bounds = piece.bounds(points);
-            let segment = piece.segments().len() == 1;
-            let (a, b) = (points[piece.first as usize], points[piece.last as usize]);
-            let reaches = |other: &Bounds2| {
-                if segment { segment_reaches(a, b, other, 0.0) } else { overlap(&bounds, other) }
-            };
-            topology.tree.query(reaches, |other| {
+            let search = |other: u32| {
                 let other = &topology.pieces[other as usize];
                 for_pairs((points, piece), (&topology.points, other), |i, j| {
                     found.meet(points, i, topology, j, other.owner);
                 });
-            });
+            };
+            let tree = &topology.tree;
+            if piece.segments().len() == 1 {
+                let (a, b) = (points[piece.first as usize], points[piece.last as usize]);
+                tree.query(&tree.probe(a, b), search);
+            } else {
+                tree.query(&tree.window(&piece.bounds(points)), search);
+            }
         }
         found.contacts.sort_unstable_by(|a, b| a.at.total_cmp(&b.at));
         found.along.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));

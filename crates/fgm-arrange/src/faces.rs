@@ -39,25 +39,31 @@ impl Sets {
     }
 }
 
-/// Sum of the cross products of successive points, and of the last with the first where `closed`:
-/// exact, whatever the size.
-pub(crate) fn twice_area(line: &[Point2], closed: bool) -> i128 {
-    let cross = |a: Point2, b: Point2| {
-        i128::from(a.x as i64) * i128::from(b.y as i64)
-            - i128::from(a.y as i64) * i128::from(b.x as i64)
-    };
-    let Some((&start, rest)) = line.split_first() else { return 0 };
-    let reach = rest.iter().fold(0.0, |m: f64, p| m.max((*p - start).abs().max_element()));
-    let Some(&end) = rest.last() else { return 0 };
-    let near = if reach < (1u64 << 30) as f64 {
-        // Products below 2^60: the common case, without 128-bit products.
-        let whole = |p: Point2| ((p.x - start.x) as i64, (p.y - start.y) as i64);
-        let one = |a: (i64, i64), b: (i64, i64)| i128::from(a.0 * b.1 - a.1 * b.0);
-        rest.windows(2).map(|w| one(whole(w[0]), whole(w[1]))).sum()
+/// The cross product, whatever the size.
+fn cross(a: Point2, b: Point2) -> i128 {
+    i128::from(a.x as i64) * i128::from(b.y as i64)
+        - i128::from(a.y as i64) * i128::from(b.x as i64)
+}
+
+/// Sum of the cross products of the successive points of a piece, and so of the triangles that
+/// they make with the origin: exact. Around a closed line they are twice its area.
+fn twice_area_of_piece(line: &[Point2]) -> i128 {
+    let (first, last) = (line[0], line[line.len() - 1]);
+    let reach = (last - first).abs().max_element();
+    // A piece is monotone: its ends bound it. Sums of up to 2^4 products below 2 * 2^48 are exact.
+    let near = if reach < (1u64 << 24) as f64 {
+        let sum: f64 = line.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - w[0])).sum();
+        sum as i128
     } else {
-        rest.windows(2).map(|w| cross(w[0] - start, w[1] - start)).sum::<i128>()
+        line.windows(2).map(|w| cross(w[0] - first, w[1] - first)).sum()
     };
-    if closed { near } else { near + cross(start, end - start) }
+    near + cross(first, last - first)
+}
+
+/// Twice the signed area of a ring; exact.
+pub(crate) fn twice_area(ring: &[Point2]) -> i128 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
 }
 
 impl Topology {
@@ -78,40 +84,37 @@ impl Topology {
     }
 
     fn walk(&self) -> (Vec<Cycle>, Vec<u32>) {
-        let areas: Vec<_> =
-            (0..self.ends.len()).map(|edge| twice_area(self.line(edge), false)).collect();
         let mut cycle_of = vec![NONE; self.next.len()];
-        let least = self.least_points();
         let mut cycles = Vec::new();
         for half in 0..self.next.len() as u32 {
             if cycle_of[half as usize] != NONE {
                 continue;
             }
-            let mut cycle =
-                Cycle { half, twice_area: 0, face: NONE, least: least[half as usize / 2] };
             for h in self.cycle(half) {
                 cycle_of[h as usize] = cycles.len() as u32;
-                let edge = h as usize / 2;
-                cycle.twice_area += if h & 1 == 0 { areas[edge] } else { -areas[edge] };
-                cycle.least = lesser(cycle.least, least[edge]);
             }
-            cycles.push(cycle);
+            let least = self.vertices[self.origin(half) as usize];
+            cycles.push(Cycle { half, twice_area: 0, face: NONE, least });
+        }
+        let mut pieces = self.pieces.iter().peekable();
+        for edge in 0..self.ends.len() {
+            let start = self.points[self.edge_starts[edge] as usize];
+            let (mut area, mut least) = (0, start);
+            while let Some(piece) = pieces.next_if(|piece| piece.owner as usize == edge) {
+                let line = &self.points[piece.first as usize..=piece.last as usize];
+                area += twice_area_of_piece(line);
+                // Not at an end of the piece where that begins or ends upright.
+                if line[0].x.min(line[line.len() - 1].x) <= least.x {
+                    least = line.iter().copied().fold(least, lesser);
+                }
+            }
+            for (half, area) in [(2 * edge, area), (2 * edge + 1, -area)] {
+                let cycle = &mut cycles[cycle_of[half] as usize];
+                cycle.twice_area += area;
+                cycle.least = lesser(cycle.least, least);
+            }
         }
         (cycles, cycle_of)
-    }
-
-    /// The least point of each edge.
-    fn least_points(&self) -> Vec<Point2> {
-        let mut least: Vec<_> = self.ends.iter().map(|e| self.vertices[e[0] as usize]).collect();
-        for piece in &self.pieces {
-            let place = &mut least[piece.owner as usize];
-            let (first, last) = (piece.first as usize, piece.last as usize);
-            // Not at an end of the piece where that begins or ends upright.
-            if self.points[first].x.min(self.points[last].x) <= place.x {
-                *place = self.points[first..=last].iter().copied().fold(*place, lesser);
-            }
-        }
-        least
     }
 
     /// Numbers the bounded faces by the least points of their outer borders, and by the angle at

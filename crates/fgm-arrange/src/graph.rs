@@ -1,9 +1,10 @@
+use crate::memory;
 use crate::noder::{Arc, Noder};
 use crate::predicate::by_angle;
 use fgm_core::Point2;
 use std::cmp::Ordering;
 
-/// Not visited, or none.
+/// None.
 const NONE: u32 = u32::MAX;
 
 /// The arcs of a noder as a graph: half-arcs around their nodes in order of angle, repeated arcs
@@ -20,19 +21,12 @@ pub(crate) struct Graph {
     label_keys: Vec<u64>,
     label_starts: Vec<u32>,
     pub(crate) bridge: Vec<bool>,
-    visit: Vec<u32>,
-    low: Vec<u32>,
-    stack: Vec<Frame>,
-}
-
-/// A node on the way of the depth-first search.
-#[derive(Clone, Copy, Debug)]
-struct Frame {
-    node: u32,
-    /// The arc by which it was reached.
-    by: u32,
-    /// How many of its half-arcs are done.
-    done: u32,
+    /// For each half-arc the one that follows along the face to its left.
+    next: Vec<u32>,
+    /// For each half-arc its face's cycle.
+    cycle: Vec<u32>,
+    /// The half-arcs of a node and the directions in which they leave it.
+    rays: Vec<(Point2, u32)>,
 }
 
 /// The direction in which a half-arc leaves its node.
@@ -51,12 +45,23 @@ pub(crate) fn origin(arcs: &[Arc], half: u32) -> u32 {
 impl Graph {
     /// Replaces the content by the noder's arcs. `ranks` has a label's rank for each chain.
     pub(crate) fn build(&mut self, noder: &Noder, ranks: &[u32], keep_bridges: bool) {
-        self.sort_around(noder);
-        self.merge(noder, ranks);
-        self.find_bridges(noder);
+        let merged = self.sort_around(noder);
+        self.collect_labels(&noder.arcs, ranks, merged);
+        self.find_bridges(&noder.arcs);
         if !keep_bridges {
             self.drop_bridges();
         }
+    }
+
+    /// Gives back what a large input needed.
+    pub(crate) fn rest(&mut self) {
+        memory::rest(&mut self.starts);
+        memory::rest(&mut self.degree);
+        memory::rest(&mut self.around);
+        memory::rest(&mut self.representative);
+        memory::rest(&mut self.label_keys);
+        memory::rest(&mut self.label_starts);
+        memory::rest(&mut self.bridge);
     }
 
     /// A node's half-arcs, anticlockwise from +x.
@@ -71,7 +76,8 @@ impl Graph {
         self.label_keys[range.start as usize..range.end as usize].iter().map(|&key| key as u32)
     }
 
-    fn sort_around(&mut self, noder: &Noder) {
+    /// Sorts the half-arcs around their nodes; whether any were repetitions of others.
+    fn sort_around(&mut self, noder: &Noder) -> bool {
         let (nodes, arcs) = (noder.nodes().len(), &noder.arcs[..]);
         self.degree.clear();
         self.degree.resize(nodes, 0);
@@ -92,43 +98,44 @@ impl Graph {
             self.around[(self.starts[node] + self.degree[node]) as usize] = half;
             self.degree[node] += 1;
         }
-        for node in 0..nodes {
-            let start = self.starts[node] as usize;
-            self.around[start..start + self.degree[node] as usize].sort_unstable_by(|&a, &b| {
-                by_angle(direction(&noder.points, arcs, a), direction(&noder.points, arcs, b))
-            });
-        }
-    }
-
-    /// Straight arcs in one direction from a node to one other are one; the first stands for all.
-    fn merge(&mut self, noder: &Noder, ranks: &[u32]) {
-        let arcs = &noder.arcs[..];
         self.representative.clear();
         self.representative.extend(0..arcs.len() as u32);
         let mut merged = false;
-        for node in 0..self.degree.len() {
-            let start = self.starts[node] as usize;
-            let end = start + self.degree[node] as usize;
-            let (mut kept, mut at) = (start, start);
-            while at < end {
-                let first = self.around[at];
-                let mut stop = at + 1;
-                while stop < end && same_edge(noder, first, self.around[stop]) {
-                    stop += 1;
-                }
-                let least = self.around[at..stop].iter().copied().min().unwrap_or(first);
-                if stop > at + 1 {
-                    merged = true;
-                    for &half in &self.around[at..stop] {
-                        self.representative[half as usize / 2] = least / 2;
-                    }
-                }
-                self.around[kept] = least;
-                kept += 1;
-                at = stop;
-            }
-            self.degree[node] = (kept - start) as u32;
+        for node in 0..nodes {
+            merged |= self.sort_node(noder, node);
         }
+        merged
+    }
+
+    /// Puts a node's half-arcs in order. Straight ones in one direction to one other node are one;
+    /// the first stands for all. Whether there were any such.
+    fn sort_node(&mut self, noder: &Noder, node: usize) -> bool {
+        let (start, arcs) = (self.starts[node] as usize, &noder.arcs[..]);
+        let around = &mut self.around[start..start + self.degree[node] as usize];
+        self.rays.clear();
+        self.rays.extend(around.iter().map(|&half| (direction(&noder.points, arcs, half), half)));
+        self.rays.sort_unstable_by(|a, b| by_angle(a.0, b.0).then(a.1.cmp(&b.1)));
+        let (mut kept, mut merged) = (0, false);
+        let mut before: Option<(Point2, u32)> = None;
+        for &(direction, half) in &self.rays {
+            let same = |before: &(Point2, u32)| {
+                by_angle(before.0, direction) == Ordering::Equal && same_ends(arcs, before.1, half)
+            };
+            if let Some((_, first)) = before.filter(same) {
+                self.representative[half as usize / 2] = first / 2;
+                merged = true;
+            } else {
+                before = Some((direction, half));
+                around[kept] = half;
+                kept += 1;
+            }
+        }
+        self.degree[node] = kept as u32;
+        merged
+    }
+
+    /// Collects the labels of each arc and of those that it stands for.
+    fn collect_labels(&mut self, arcs: &[Arc], ranks: &[u32], merged: bool) {
         self.label_keys.clear();
         self.label_keys.extend(arcs.iter().zip(&self.representative).map(|(arc, &to)| {
             let forward = arc.ends[0] == arcs[to as usize].ends[0];
@@ -148,51 +155,34 @@ impl Graph {
         }
     }
 
-    /// Edges on no cycle (Tarjan 1974): dangling ones, and those that join two cycles.
-    fn find_bridges(&mut self, noder: &Noder) {
-        let arcs = &noder.arcs[..];
-        let nodes = self.degree.len();
-        self.bridge.clear();
-        self.bridge.resize(arcs.len(), false);
-        self.visit.clear();
-        self.visit.resize(nodes, NONE);
-        self.low.clear();
-        self.low.resize(nodes, NONE);
-        let mut time = 0;
-        for root in 0..nodes as u32 {
-            if self.visit[root as usize] != NONE {
-                continue;
-            }
-            self.stack.push(Frame { node: root, by: NONE, done: 0 });
-            while let Some(frame) = self.stack.last_mut() {
-                let node = frame.node as usize;
-                if frame.done == 0 {
-                    (self.visit[node], self.low[node]) = (time, time);
-                    time += 1;
-                }
-                if frame.done < self.degree[node] {
-                    let half = self.around[(self.starts[node] + frame.done) as usize];
-                    frame.done += 1;
-                    if half / 2 == frame.by {
-                        continue;
-                    }
-                    let to = origin(arcs, half ^ 1);
-                    if self.visit[to as usize] == NONE {
-                        self.stack.push(Frame { node: to, by: half / 2, done: 0 });
-                    } else {
-                        self.low[node] = self.low[node].min(self.visit[to as usize]);
-                    }
-                    continue;
-                }
-                let Frame { by, .. } = *frame;
-                self.stack.pop();
-                if let Some(parent) = self.stack.last() {
-                    let parent = parent.node as usize;
-                    self.low[parent] = self.low[parent].min(self.low[node]);
-                    self.bridge[by as usize] = self.low[node] > self.visit[parent];
-                }
+    /// Edges on no cycle: dangling ones, and those that join two cycles. In the plane they are the
+    /// ones with the same face on both sides.
+    fn find_bridges(&mut self, arcs: &[Arc]) {
+        self.next.clear();
+        self.next.resize(2 * arcs.len(), NONE);
+        for (&start, &degree) in self.starts.iter().zip(&self.degree) {
+            let around = &self.around[start as usize..(start + degree) as usize];
+            let mut before = around.last().copied().unwrap_or(NONE);
+            for &half in around {
+                self.next[half as usize ^ 1] = before;
+                before = half;
             }
         }
+        self.cycle.clear();
+        self.cycle.resize(2 * arcs.len(), NONE);
+        for first in 0..2 * arcs.len() as u32 {
+            let mut at = first;
+            // What another arc stands for has no next.
+            while self.next[at as usize] != NONE && self.cycle[at as usize] == NONE {
+                self.cycle[at as usize] = first;
+                at = self.next[at as usize];
+            }
+        }
+        self.bridge.clear();
+        let sides = self.cycle.chunks_exact(2);
+        self.bridge.extend(sides.map(|sides| sides[0] != NONE && sides[0] == sides[1]));
+        memory::rest(&mut self.next);
+        memory::rest(&mut self.cycle);
     }
 
     fn drop_bridges(&mut self) {
@@ -227,11 +217,10 @@ impl Graph {
     }
 }
 
-fn same_edge(noder: &Noder, a: u32, b: u32) -> bool {
-    let arcs = &noder.arcs[..];
+/// Whether two half-arcs that leave one node in one direction are the same line: straight, to one
+/// other node.
+fn same_ends(arcs: &[Arc], a: u32, b: u32) -> bool {
     arcs[a as usize / 2].is_straight()
         && arcs[b as usize / 2].is_straight()
         && origin(arcs, a ^ 1) == origin(arcs, b ^ 1)
-        && by_angle(direction(&noder.points, arcs, a), direction(&noder.points, arcs, b))
-            == Ordering::Equal
 }

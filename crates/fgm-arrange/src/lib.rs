@@ -62,6 +62,7 @@
 //! anticlockwise, holes clockwise. Lattice points have whole coordinates up to 2^40 steps.
 
 mod arrangement;
+mod block;
 mod chain;
 mod contact;
 mod cut;
@@ -72,16 +73,20 @@ mod faces;
 #[cfg(feature = "generators")]
 pub mod generators;
 mod graph;
+mod hilbert;
 mod inside;
 mod lattice;
 mod locate;
+mod memory;
 mod noder;
 mod numbering;
 mod piece;
+mod pixel;
 mod predicate;
 mod rings;
 mod slots;
 mod snap;
+mod strips;
 mod topology;
 mod tree;
 mod validate;

@@ -2,7 +2,6 @@ use crate::predicate::{in_box, orient, orient_any};
 use crate::topology::Topology;
 use crate::{EdgeId, FaceId, VertexId};
 use fgm_core::{Bounds2, Point2};
-use std::cell::Cell;
 
 /// Where a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,49 +51,45 @@ impl Topology {
     /// The half-edge of the first edge straight below `p` (among those that count) with its face
     /// above. Where several meet below, the one just right of it; edges through `p` do not count.
     pub(crate) fn below(&self, p: Point2, counts: impl Fn(u32) -> bool) -> Option<u32> {
-        let best: Cell<Option<Floor>> = Cell::new(None);
-        let reaches = |b: &Bounds2| {
-            b.min.x <= p.x
-                && p.x <= b.max.x
-                && b.min.y <= p.y
-                && best.get().is_none_or(|f| b.max.y >= f.left.y.min(f.right.y))
-        };
-        self.tree.query_from_above(reaches, |piece| {
+        let mut best: Option<Floor> = None;
+        self.tree.query_down(p, |piece| {
             let piece = &self.pieces[piece as usize];
-            if !counts(piece.owner) {
-                return;
-            }
-            for i in piece.segments() {
-                let (a, b) = (self.points[i], self.points[i + 1]);
-                let (left, right, back) = if a.x < b.x { (a, b, 0) } else { (b, a, 1) };
-                if !(left.x <= p.x && p.x < right.x) {
-                    continue;
+            if counts(piece.owner) {
+                for i in piece.segments() {
+                    let (a, b) = (self.points[i], self.points[i + 1]);
+                    let (left, right, back) = if a.x < b.x { (a, b, 0) } else { (b, a, 1) };
+                    if !(left.x <= p.x && p.x < right.x) {
+                        continue;
+                    }
+                    let floor = Floor { left, right, half: piece.owner * 2 + back };
+                    if orient_any(left, right, p) > 0.0
+                        && best.is_none_or(|other| floor.is_above(&other))
+                    {
+                        best = Some(floor);
+                    }
                 }
-                let floor = Floor { left, right, half: piece.owner * 2 + back };
-                if orient_any(left, right, p) > 0.0
-                    && best.get().is_none_or(|other| floor.is_above(&other))
-                {
-                    best.set(Some(floor));
-                }
             }
+            best.map_or(f64::NEG_INFINITY, |floor| floor.left.y.min(floor.right.y))
         });
-        best.get().map(|floor| floor.half)
+        best.map(|floor| floor.half)
     }
 
     /// The edge through `p`, and the segment of it, as the index of its first point.
     pub(crate) fn through(&self, p: Point2) -> Option<(u32, usize)> {
-        let found = Cell::new(None);
-        let holds = |b: &Bounds2| found.get().is_none() && in_box(b.min, b.max, p);
-        self.tree.query(holds, |piece| {
+        let mut found = None;
+        self.tree.query(&self.tree.window(&Bounds2::new(p, p)), |piece| {
             let piece = &self.pieces[piece as usize];
+            if found.is_some() || !piece.bounds(&self.points).contains(p) {
+                return;
+            }
             for i in piece.segments() {
                 let (a, b) = (self.points[i], self.points[i + 1]);
                 if in_box(a, b, p) && orient_any(a, b, p) == 0.0 {
-                    found.set(Some((piece.owner, i)));
+                    found = Some((piece.owner, i));
                 }
             }
         });
-        found.get()
+        found
     }
 
     /// The face that holds `p`, in lattice steps, or [`NONE`](crate::topology::NONE); on an edge,

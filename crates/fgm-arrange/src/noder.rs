@@ -1,9 +1,11 @@
 use crate::contact::Contacts;
+use crate::hilbert::HilbertOrder;
 use crate::lattice::Lattice;
+use crate::pixel::NONE;
 use crate::slots::{Slots, too_many};
-use crate::snap::{NONE, Snap};
+use crate::snap::Snap;
 use crate::tree::BoxTree;
-use crate::{ArrangeError, Chain};
+use crate::{ArrangeError, Chain, memory};
 use fgm_core::Point2;
 
 /// From chains to arcs that meet at their ends only (but for repetitions of two-point arcs, which
@@ -14,7 +16,7 @@ pub(crate) struct Noder {
     tree: BoxTree,
     contacts: Contacts,
     snap: Snap,
-    pub(crate) keys: Vec<u64>,
+    pub(crate) order: HilbertOrder,
     /// The arcs' points, their ends included, one arc after the other.
     pub(crate) points: Vec<Point2>,
     pub(crate) arcs: Vec<Arc>,
@@ -43,7 +45,7 @@ impl Arc {
 impl Noder {
     /// The nodes' places, in order of place.
     pub(crate) fn nodes(&self) -> &[Point2] {
-        &self.snap.hot
+        &self.snap.pixels.hot
     }
 
     pub(crate) fn node<L>(
@@ -52,11 +54,28 @@ impl Noder {
         lattice: &Lattice,
     ) -> Result<(), ArrangeError> {
         self.slots.load(chains, lattice)?;
-        self.tree.build(&self.slots.bounds, &mut self.keys);
-        self.contacts.find(&self.slots, &self.tree);
-        self.snap.solve(&self.slots, &self.contacts, &self.tree, &mut self.keys)?;
+        let slots = &self.slots;
+        self.tree.build(
+            slots.pieces.len(),
+            |piece| slots.pieces[piece].bounds(&slots.points),
+            &mut self.order,
+        );
+        self.contacts.find(slots, &self.tree);
+        self.snap.solve(slots, &self.contacts, &self.tree)?;
+        self.tree.rest();
+        self.contacts.rest();
+        self.order.rest();
         self.emit();
+        self.slots.rest();
+        self.snap.rest();
         too_many("points of edges", self.points.len())
+    }
+
+    /// Gives back what a large input needed.
+    pub(crate) fn rest(&mut self) {
+        memory::rest(&mut self.points);
+        memory::rest(&mut self.arcs);
+        memory::rest(&mut self.snap.pixels.hot);
     }
 
     fn emit(&mut self) {
@@ -70,16 +89,16 @@ impl Noder {
                 points: &mut self.points,
                 arcs: &mut self.arcs,
                 first: 0,
-                from: snap.of_slot[run.first as usize],
+                from: snap.pixels.of_slot[run.first as usize],
                 chain: run.chain,
             };
             line.begin(slots.points[run.first as usize]);
             for segment in run.first..run.last {
-                while let Some(cut) = cuts.next_if(|cut| cut.segment == segment) {
-                    line.end(snap.hot[cut.pixel as usize], cut.pixel);
+                while let Some(cut) = cuts.next_if(|cut| cut.segment() == segment) {
+                    line.end(snap.pixels.hot[cut.pixel() as usize], cut.pixel());
                 }
-                let (p, node) =
-                    (slots.points[segment as usize + 1], snap.of_slot[segment as usize + 1]);
+                let to = segment as usize + 1;
+                let (p, node) = (slots.points[to], snap.pixels.of_slot[to]);
                 if node == NONE {
                     line.points.push(p);
                 } else {

@@ -108,9 +108,11 @@ impl<'a> Numbering<'a> {
     fn rings(&mut self, out: &mut Topology) {
         let mut rings = Vec::new();
         for half in (0..2 * self.noder.arcs.len() as u32).step_by(2) {
+            if self.done[half as usize / 2] {
+                continue;
+            }
             let node = origin(&self.noder.arcs, half) as usize;
-            let present = self.graph.around(node).contains(&half);
-            if present && !self.done[half as usize / 2] {
+            if self.graph.around(node).contains(&half) {
                 rings.push((self.least_around(half), half));
             }
         }

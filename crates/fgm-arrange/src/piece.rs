@@ -74,20 +74,6 @@ pub(crate) fn overlap(a: &Bounds2, b: &Bounds2) -> bool {
     (a.min.x <= b.max.x) & (b.min.x <= a.max.x) & (a.min.y <= b.max.y) & (b.min.y <= a.max.y)
 }
 
-/// Whether a segment comes within `margin` of a box, in x and in y; where the answer is close it is
-/// yes.
-#[inline]
-pub(crate) fn segment_reaches(a: Point2, b: Point2, bounds: &Bounds2, margin: f64) -> bool {
-    if !overlap(&around(a, b), &Bounds2::new(bounds.min - margin, bounds.max + margin)) {
-        return false;
-    }
-    let d = b - a;
-    let (centre, half) = ((bounds.min + bounds.max) * 0.5 - a, (bounds.max - bounds.min) * 0.5);
-    let (l, r) = (d.x * centre.y, d.y * centre.x);
-    let reach = d.x.abs() * (half.y + margin) + d.y.abs() * (half.x + margin);
-    (l - r).abs() <= reach + (l.abs() + r.abs() + reach) * 1e-12
-}
-
 impl Piece {
     #[inline]
     pub(crate) fn bounds(&self, points: &[Point2]) -> Bounds2 {

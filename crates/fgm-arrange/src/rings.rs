@@ -125,7 +125,7 @@ impl<'a> Rings<'a> {
         let less = |a: usize, b: usize| by_place(points[b], points[a]) == Ordering::Less;
         let least = (0..points.len()).reduce(|a, b| if less(a, b) { b } else { a });
         points.rotate_left(least.unwrap_or(0));
-        if crate::faces::twice_area(&points, true) > 0 {
+        if crate::faces::twice_area(&points) > 0 {
             self.outer = points;
         } else {
             self.holes.push(points);

@@ -1,8 +1,8 @@
 use crate::lattice::Lattice;
 use crate::piece::{self, Piece};
 use crate::predicate::by_place;
-use crate::{ArrangeError, Chain};
-use fgm_core::{Bounds2, Point2};
+use crate::{ArrangeError, Chain, memory};
+use fgm_core::Point2;
 use std::cmp::Ordering;
 
 /// The input on the lattice: all chains' points in one row, repeated points dropped. A slot is an
@@ -14,7 +14,6 @@ pub(crate) struct Slots {
     pub(crate) points: Vec<Point2>,
     pub(crate) runs: Vec<Run>,
     pub(crate) pieces: Vec<Piece>,
-    pub(crate) bounds: Vec<Bounds2>,
 }
 
 /// A chain in the row.
@@ -38,7 +37,6 @@ impl Slots {
         self.points.clear();
         self.runs.clear();
         self.pieces.clear();
-        self.bounds.clear();
         // One more a chain, to close it.
         let count = chains.iter().map(|c| c.points.len() + 1).sum::<usize>();
         too_many("points", count)?;
@@ -58,8 +56,13 @@ impl Slots {
             piece::split(&self.points, first, last, self.runs.len() as u32, &mut self.pieces);
             self.runs.push(Run { first: first as u32, last: last as u32, chain: index as u32 });
         }
-        self.bounds.extend(self.pieces.iter().map(|piece| piece.bounds(&self.points)));
         Ok(())
+    }
+
+    /// Gives back what a large input needed.
+    pub(crate) fn rest(&mut self) {
+        memory::rest(&mut self.points);
+        memory::rest(&mut self.pieces);
     }
 
     fn copy<L>(

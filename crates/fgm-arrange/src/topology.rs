@@ -1,4 +1,5 @@
 use crate::graph::Graph;
+use crate::hilbert::HilbertOrder;
 use crate::noder::Noder;
 use crate::numbering::Numbering;
 use crate::piece::{self, Piece};
@@ -82,14 +83,14 @@ impl Topology {
 
     /// The arrangement of a graph. Numbering follows places only, so that it does not depend on
     /// the order, direction or repetition of chains.
-    pub(crate) fn build(noder: &mut Noder, graph: &Graph) -> Self {
+    pub(crate) fn build(noder: &mut Noder, graph: &mut Graph) -> Self {
         let mut topology = Self::default();
-        let mut keys = std::mem::take(&mut noder.keys);
         Numbering::new(noder, graph).run(&mut topology);
+        noder.rest();
+        graph.rest();
         topology.link();
-        topology.index(&mut keys);
+        topology.index(&mut noder.order);
         topology.find_faces();
-        noder.keys = keys;
         topology
     }
 
@@ -107,13 +108,15 @@ impl Topology {
         }
     }
 
-    fn index(&mut self, keys: &mut Vec<u64>) {
+    fn index(&mut self, order: &mut HilbertOrder) {
+        self.pieces.reserve(self.ends.len());
         for edge in 0..self.ends.len() {
             let (first, end) =
                 (self.edge_starts[edge] as usize, self.edge_starts[edge + 1] as usize);
             piece::split(&self.points, first, end - 1, edge as u32, &mut self.pieces);
         }
-        let bounds: Vec<_> = self.pieces.iter().map(|piece| piece.bounds(&self.points)).collect();
-        self.tree.build(&bounds, keys);
+        let (points, pieces) = (&self.points, &self.pieces);
+        self.tree.build(pieces.len(), |piece| pieces[piece].bounds(points), order);
+        order.rest();
     }
 }

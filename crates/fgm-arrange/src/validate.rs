@@ -83,13 +83,12 @@ impl<L> Arrangement<L> {
             faces += area;
         }
         let border = |half| {
-            let edges = self.topology.cycle(half);
-            edges
-                .map(|h| {
-                    let area = crate::faces::twice_area(self.topology.line(h as usize / 2), false);
-                    if h & 1 == 0 { -area } else { area }
-                })
-                .sum::<i128>()
+            let mut ring = Vec::new();
+            for h in self.topology.cycle(half) {
+                let line = self.topology.line(h as usize / 2);
+                if h & 1 == 0 { ring.extend(line) } else { ring.extend(line.iter().rev()) }
+            }
+            -crate::faces::twice_area(&ring)
         };
         let twice: i128 = self.topology.outlines.iter().map(|&half| border(half)).sum();
         let enclosed = self.lattice.area(twice as f64 * 0.5);
