@@ -54,6 +54,17 @@ pub fn random_lines() -> impl Strategy<Value = Vec<Drawn>> {
     prop::collection::vec(line, 1..40)
 }
 
+/// Many straight lines in a small place: more crossings than lines, and many of them in one pixel
+/// or near one.
+pub fn thickets() -> impl Strategy<Value = Vec<Drawn>> {
+    let reach = prop::sample::select(vec![20i64, 300, 10_000]);
+    let end = || (-1000..=1000i64, -1000..=1000i64);
+    (prop::collection::vec((end(), end()), 12..50), reach).prop_map(|(lines, reach)| {
+        let place = |(x, y): (i64, i64)| steps(x * reach / 1000, y * reach / 1000);
+        lines.into_iter().map(|(a, b)| Drawn::new(vec![place(a), place(b)], false)).collect()
+    })
+}
+
 /// Points a step or two beside one long line, joined in any order.
 pub fn almost_collinear() -> impl Strategy<Value = Vec<Drawn>> {
     let point = (-1000..1000i64, -2..=2i64, prop::sample::select(vec![1i64, 1_000, 5_000_000]));
@@ -134,6 +145,29 @@ pub fn spirals() -> impl Strategy<Value = Vec<Drawn>> {
     })
 }
 
+/// Two families of parallel lines, some of them a step off, slanted by a few steps or not at all,
+/// with their ends on the grid, short of it or beyond.
+pub fn grids() -> impl Strategy<Value = Vec<Drawn>> {
+    let line = (0..12i64, -1..=1i64, -3..=3i64, -1..=1i64, any::<bool>());
+    let pitch = prop::sample::select(vec![2i64, 50, 1_000_000]);
+    (prop::collection::vec(line, 2..40), pitch).prop_map(|(lines, pitch)| {
+        let line = |(at, miss, slant, over, upright): (i64, i64, i64, i64, bool)| {
+            let (at, end) = (at * pitch + miss, 12 * pitch + over);
+            let (a, b) = ((-over, at), (end, at + slant));
+            let turn = |(x, y)| if upright { steps(y, x) } else { steps(x, y) };
+            Drawn::new(vec![turn(a), turn(b)], false)
+        };
+        lines.into_iter().map(line).collect()
+    })
+}
+
+/// The same lines as many times larger.
+#[must_use]
+pub fn scaled(lines: &[Drawn], by: f64) -> Vec<Drawn> {
+    let points = |line: &Drawn| line.points.iter().map(|p| *p * by).collect();
+    lines.iter().map(|line| Drawn::new(points(line), line.closed)).collect()
+}
+
 /// Squares in squares, and beside each other, some of them touching.
 pub fn nested() -> impl Strategy<Value = Vec<Drawn>> {
     let square = (0..12i64, 0..12i64, 1..12i64);
@@ -154,11 +188,13 @@ pub fn lines() -> impl Strategy<Value = Vec<Drawn>> {
             lattice_lines(6),
             lattice_lines(40),
             random_lines(),
+            thickets(),
             almost_collinear(),
             almost_coincident(),
             fans(),
             combs(),
             spirals(),
+            grids(),
             nested(),
         ]
     };

@@ -5,8 +5,8 @@
 
 #![allow(clippy::unwrap_used)] // Helpers of tests, which clippy does not see as tests.
 use fgm_arrange::generators::{self, Drawn, STEP, chains};
-use fgm_arrange::{ArrangeOptions, Arrangement, Location};
-use fgm_core::{Point2, point_at};
+use fgm_arrange::{ArrangeError, ArrangeOptions, Arrangement, Location};
+use fgm_core::{Point2, point_at, slice_path};
 use proptest::prelude::*;
 
 fn config(cases: u32) -> ProptestConfig {
@@ -70,6 +70,48 @@ proptest! {
         let arrangement = arrange(&lines, keep);
         prop_assert_eq!(arrangement.validate(), Ok(()));
         prop_assert!(keep || arrangement.edges().all(|e| !e.is_dangling() && e.left() != e.right()));
+    }
+
+    #[test]
+    fn valid_at_any_size(
+        lines in generators::lines(),
+        size in prop::sample::select(vec![1e-6, 1e-3, 40.0]),
+        step in prop::sample::select(vec![1e-6, 1e-9, 2.0f64.powi(-13)]),
+    ) {
+        // Up to 8e5 mm; on the fine lattice up to 1.1e3 mm, beyond which there is an error.
+        let lines = generators::scaled(&lines, size);
+        let options = ArrangeOptions::default().with_dangling(true).with_lattice(step);
+        let limit = step * (1u64 << 40) as f64;
+        let fits = lines.iter().flat_map(|l| &l.points).all(|p| p.abs().max_element() <= limit);
+        match Arrangement::new(&chains(&lines), &options) {
+            Ok(arrangement) => {
+                prop_assert!(fits);
+                prop_assert_eq!(arrangement.validate(), Ok(()));
+            }
+            Err(error) => {
+                let far = matches!(error, ArrangeError::OutOfRange { .. });
+                prop_assert!(!fits && far, "{}", error);
+            }
+        }
+    }
+
+    #[test]
+    fn both_sides_of_a_border_know_each_other(lines in generators::lines(), keep in any::<bool>()) {
+        let arrangement = arrange(&lines, keep);
+        let mut seen = vec![0; 2 * arrangement.edge_count()];
+        let outlines = arrangement.outlines().flatten();
+        for border in arrangement.faces().flat_map(|face| face.neighbours()).chain(outlines) {
+            let edge = border.edge();
+            let (with, sides) = (border.is_forward(), [edge.left(), edge.right()]);
+            let [near, far] = if with { sides } else { [sides[1], sides[0]] };
+            prop_assert_eq!((border.face(), border.neighbour()), (near, far));
+            let labels: Vec<_> = border.labels().map(|l| (l.label, l.forward == with)).collect();
+            let plain: Vec<_> = edge.labels().iter().map(|l| (l.label, l.forward)).collect();
+            prop_assert!(!plain.is_empty());
+            prop_assert_eq!(labels, plain);
+            seen[2 * edge.id().0 as usize + usize::from(with)] += 1;
+        }
+        prop_assert!(seen.iter().all(|&times| times == 1), "{:?}", seen);
     }
 
     #[test]
@@ -187,6 +229,17 @@ proptest! {
             prop_assert_eq!(pair[0].to, pair[1].from);
             prop_assert!(pair[0].label != pair[1].label && pair[0].from < pair[0].to);
         }
+        let length = |path: &[Point2]| path.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
+        let mut part = Vec::new();
+        let parts: f64 = spans
+            .iter()
+            .map(|span| {
+                part.clear();
+                slice_path(&path, span.from, span.to, &mut part);
+                length(&part)
+            })
+            .sum();
+        prop_assert!((parts - length(&path)).abs() <= 1e-12 * length(&path), "length");
         for span in &spans {
             // In the middle of a straight part of the span.
             let end = span.to.min(span.from.floor() + 1.0);

@@ -157,6 +157,31 @@ fn places_are_told_apart() {
 }
 
 #[test]
+fn squares_nest_to_any_depth() {
+    let depth = 500;
+    let square = |i: i32| {
+        let r = f64::from(depth - i);
+        vec![p(-r, -r), p(r, -r), p(r, r), p(-r, r)]
+    };
+    let squares: Vec<_> = (0..depth).map(square).collect();
+    let chains: Vec<_> = squares.iter().map(|points| Chain::closed(points, 0)).collect();
+    let arrangement = Arrangement::new(&chains, &ArrangeOptions::default()).unwrap();
+    arrangement.validate().unwrap();
+    assert_eq!(arrangement.face_count(), depth as usize);
+    assert_eq!(arrangement.component_count(), depth as usize);
+    for i in 0..depth {
+        let r = f64::from(depth - i);
+        let face = arrangement.locate(p(r - 0.5, 0.0)).face().unwrap();
+        let last = i + 1 == depth;
+        assert_eq!(arrangement.face(face).area(), if last { 4.0 } else { 8.0 * r - 4.0 });
+        assert_eq!(arrangement.face(face).holes().len(), usize::from(!last));
+        let beyond: Vec<_> = arrangement.face(face).neighbours().map(|b| b.neighbour()).collect();
+        let out = (i > 0).then(|| arrangement.locate(p(r + 0.5, 0.0)).face().unwrap());
+        assert_eq!(beyond[0], out);
+    }
+}
+
+#[test]
 fn paths_are_cut_at_the_borders() {
     let arrangement = arrange("0,0 2,0 2,2 0,2 o; 2,0 4,0 4,2 2,2 o", &ArrangeOptions::default());
     let [a, b] = [p(1.0, 1.0), p(3.0, 1.0)].map(|q| arrangement.locate(q).face());
