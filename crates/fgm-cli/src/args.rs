@@ -1,9 +1,13 @@
 //! The command line.
 
+mod check;
+
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use fgm::{ColorCount, FaceFill, Pattern, Strategy, Zipper};
+
+pub(crate) use check::CheckArguments;
 
 /// Slices graded designs, whose material changes through the part, into G-code.
 #[derive(Debug, Parser)]
@@ -17,6 +21,7 @@ const EXAMPLES: &str = "\
 Examples:
   fgm slice designs/vase.vcad -o vase.gcode
   fgm slice benchy.3mf --fraction 'z/48' --printer prusa-xl-5t --strategy against -o benchy.gcode
+  fgm check vase.gcode --design designs/vase.vcad
   fgm inspect designs/vase.vcad
   fgm printers show generic-mixing > mine.toml
 
@@ -26,6 +31,8 @@ Exit status: 0 done, 1 could not (I/O, out of bed, nothing to print), 2 bad inpu
 pub(crate) enum Command {
     /// Slice a design into G-code.
     Slice(Box<SliceArguments>),
+    /// Tell what a machine really lays down from G-code, and what is wrong with it.
+    Check(Box<CheckArguments>),
     /// Tell what a design holds: size, volume, materials, layers, warnings.
     Inspect(InspectArguments),
     /// List the built-in printers, or print one's profile.

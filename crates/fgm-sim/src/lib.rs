@@ -1,6 +1,48 @@
-//! What a graded print really lays down: a model of the way from a change of mixture at the motors
-//! to the change of material at the nozzle's tip.
+//! What a graded print really lays down.
+//!
+//! G-code of any slicer is followed line by line as its firmware would ([`Replay`]), and what it
+//! commands goes through a model of the machine ([`Model`]): the dead volume between mixing and
+//! nozzle, the length over which a change spreads, the time a temperature takes. What comes out
+//! are [`Piece`]s with the composition they really have ([`Deposit`]).
+//!
+//! # The cast
+//!
+//! | for | use |
+//! |---|---|
+//! | what the head of a file says | [`Head`] |
+//! | G-code to what the machine does | [`Replay`], [`Follower`], [`ReplayOptions`], [`Event`]: [`Layer`], [`Bead`], [`Travel`], [`Heat`] |
+//! | what is wrong with it | [`Faults`], [`Fault`], [`FaultKind`] |
+//! | from command to deposit | [`Deposit`], [`Model`], [`Transition`], [`Thermal`], [`Piece`] |
+//! | everything about a file | [`check`], [`CheckOptions`], [`CheckReport`] |
+//! | figures | [`Totals`], [`Figures`] |
+//! | what can go wrong | [`SimError`] |
+//!
+//! # Conventions
+//!
+//! Millimetres, mm³, seconds, °C. Positions are the nozzle's on the bed, at the top of the bead;
+//! `bed position = design position + offset`. Volume is what comes out of the nozzle: what a
+//! retraction pulls back and pushes again does not count.
 
+mod check;
+mod deposit;
+mod error;
+mod event;
+mod fault;
+mod foam;
+mod head;
+mod piece;
+mod replay;
+mod section;
+mod totals;
 mod transition;
 
+pub use check::{CheckOptions, CheckReport, check};
+pub use deposit::{Deposit, Model, Thermal};
+pub use error::SimError;
+pub use event::{Bead, Event, Heat, Layer, Travel};
+pub use fault::{Fault, FaultKind, Faults};
+pub use head::Head;
+pub use piece::Piece;
+pub use replay::{Follower, Replay, ReplayOptions};
+pub use totals::{Figures, Totals};
 pub use transition::Transition;

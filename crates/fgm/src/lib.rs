@@ -13,6 +13,7 @@
 //! | [`palette`] | fgm-palette | mixture space divided into colours |
 //! | [`toolpath`] | fgm-toolpath | walls, infill, sectioning, towers, order |
 //! | [`gcode`] | fgm-gcode | machines, dialects, look-ahead, writer, reader |
+//! | [`sim`] | fgm-sim | what the G-code really lays down, checked |
 //!
 //! Settings are in [`Settings`], listed in [`SETTINGS`]; figures come back in [`Report`].
 //!
@@ -78,6 +79,7 @@ pub use fgm_design as design;
 pub use fgm_field as field;
 pub use fgm_gcode as gcode;
 pub use fgm_palette as palette;
+pub use fgm_sim as sim;
 pub use fgm_toolpath as toolpath;
 pub use fgm_toolpath::{FaceFill, Pattern};
 

@@ -268,7 +268,8 @@ fn summary(report: &Report, output: &Path) {
     );
 }
 
-fn duration(seconds: f64) -> String {
+/// Seconds as a person says them.
+pub(crate) fn duration(seconds: f64) -> String {
     let minutes = (seconds / 60.0).round() as u64;
     match (minutes / 60, minutes % 60) {
         (0, 0) => format!("{seconds:.0} s"),

@@ -43,6 +43,14 @@ impl<R: BufRead> Reader<R> {
         Ok(Some(Line::parse(&self.buffer)))
     }
 
+    /// The first byte of the next line, which stays to be read; none at the end.
+    ///
+    /// # Errors
+    /// What reading `input` gives.
+    pub fn peek(&mut self) -> std::io::Result<Option<u8>> {
+        Ok(self.input.fill_buf()?.first().copied())
+    }
+
     /// The number of the line last read, from 1.
     pub fn line(&self) -> u64 {
         self.line
@@ -165,6 +173,16 @@ mod tests {
         assert_eq!(command.named_value("MSG"), Some(&b"a b"[..]));
         assert_eq!(command.pairs().count(), 3);
         assert_eq!(command.named_value("NONE"), None);
+    }
+
+    #[test]
+    fn peeking_takes_nothing() {
+        let mut reader = Reader::new(&b";a\nG1\n"[..]);
+        assert_eq!(reader.peek().unwrap(), Some(b';'));
+        assert!(reader.next_line().unwrap().unwrap().command.is_none());
+        assert_eq!(reader.peek().unwrap(), Some(b'G'));
+        assert!(reader.next_line().unwrap().unwrap().command.is_some());
+        assert_eq!(reader.peek().unwrap(), None);
     }
 
     proptest! {
