@@ -210,10 +210,14 @@ impl<W: io::Write> Writer<W> {
     /// Moves in the plane, and counts the way from the last known position.
     fn travel_to(&mut self, to: Point2, x: Fixed<3>, y: Fixed<3>) {
         let speed = self.options.speeds.travel;
+        let from = self.position.written;
         self.go(Some((x, y)), None, None, feedrate(speed));
+        if let (Some(from), Some(to)) = (from, self.position.written) {
+            // As written, so that who reads the file finds the same.
+            self.summary.travel_mm += from.distance(to);
+        }
         if let Some(at) = self.position.at.replace(to) {
             let delta = to - at;
-            self.summary.travel_mm += delta.length();
             self.time.push(delta.extend(0.0), speed, self.options.limits.travel_acceleration);
         }
         self.summary.moves += 1;
@@ -295,6 +299,7 @@ impl<W: io::Write> Writer<W> {
             to.x = (position.x != Some(x)).then_some(x);
             to.y = (position.y != Some(y)).then_some(y);
             (position.x, position.y) = (Some(x), Some(y));
+            position.written = Some(Point2::new(x.value(), y.value()));
         }
         if z.is_some() {
             position.z = z;

@@ -13,6 +13,8 @@ pub(super) struct Position {
     pub(super) x: Option<Fixed<3>>,
     pub(super) y: Option<Fixed<3>>,
     pub(super) z: Option<Fixed<3>>,
+    /// Where the last written move in the plane ended; kept where the place is lost.
+    pub(super) written: Option<Point2>,
     /// Height of the layer's beads, on the bed.
     pub(super) layer_z: Fixed<3>,
     /// The highest z written.
@@ -29,6 +31,7 @@ impl Position {
             x: None,
             y: None,
             z: None,
+            written: None,
             layer_z: Fixed::default(),
             max_z: Fixed::default(),
             feedrate: 0,
@@ -110,6 +113,7 @@ impl Position {
         let round = |value: Option<f64>| value.map(Fixed::round).transpose();
         (self.x, self.y, self.z) = (round(now[0])?, round(now[1])?, round(now[2])?);
         self.at = now[0].zip(now[1]).map(|(x, y)| Point2::new(x, y));
+        self.written = self.at;
         self.feedrate = 0;
         Ok(())
     }
