@@ -107,18 +107,19 @@ impl<'a, L> Cutter<'a, L> {
         found.contacts.clear();
         found.along.clear();
         for piece in &*pieces {
-            let search = |other: u32| {
-                let other = &topology.pieces[other as usize];
-                for_pairs((points, piece), (&topology.points, other), |i, j| {
-                    found.meet(points, i, topology, j, other.owner);
-                });
-            };
             let tree = &topology.tree;
             if piece.segments().len() == 1 {
-                let (a, b) = (points[piece.first as usize], points[piece.last as usize]);
-                tree.query(&tree.probe(a, b), search);
+                let i = piece.first as usize;
+                tree.query(&tree.probe(points[i], points[i + 1]), |other| {
+                    found.meet_all(points, i, topology, &topology.pieces[other as usize]);
+                });
             } else {
-                tree.query(&tree.window(&piece.bounds(points)), search);
+                tree.query(&tree.window(&piece.bounds(points)), |other| {
+                    let other = &topology.pieces[other as usize];
+                    for_pairs((points, piece), (&topology.points, other), |i, j| {
+                        found.meet(points, i, topology, j, other.owner);
+                    });
+                });
             }
         }
         found.contacts.sort_unstable_by(|a, b| a.at.total_cmp(&b.at));
@@ -127,6 +128,21 @@ impl<'a, L> Cutter<'a, L> {
 }
 
 impl Found {
+    /// Records the contacts of segment `i` of the path with all segments of a piece: those whose
+    /// ends are not on one side of it.
+    fn meet_all(&mut self, points: &[Point2], i: usize, topology: &Topology, piece: &Piece) {
+        let (a, b) = (points[i], points[i + 1]);
+        let mut before = orient_any(a, b, topology.points[piece.first as usize]);
+        for j in piece.segments() {
+            let after = orient_any(a, b, topology.points[j + 1]);
+            let beside = (before > 0.0 && after > 0.0) || (before < 0.0 && after < 0.0);
+            if !beside {
+                self.meet(points, i, topology, j, piece.owner);
+            }
+            before = after;
+        }
+    }
+
     /// Records the contacts of segment `i` of the path with the segment at `j` of an edge.
     #[inline]
     fn meet(&mut self, points: &[Point2], i: usize, topology: &Topology, j: usize, edge: u32) {

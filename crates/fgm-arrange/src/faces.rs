@@ -60,12 +60,6 @@ fn twice_area_of_piece(line: &[Point2]) -> i128 {
     near + cross(first, last - first)
 }
 
-/// Twice the signed area of a ring; exact.
-pub(crate) fn twice_area(ring: &[Point2]) -> i128 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(&a, &b)| cross(a, b)).sum()
-}
-
 impl Topology {
     /// Walks the cycles, finds the faces they border, and puts components into the faces around
     /// them.

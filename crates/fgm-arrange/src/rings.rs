@@ -1,4 +1,4 @@
-use crate::predicate::by_place;
+use crate::predicate::{by_place, orient};
 use crate::topology::Topology;
 use fgm_core::Point2;
 use std::cmp::Ordering;
@@ -125,7 +125,8 @@ impl<'a> Rings<'a> {
         let less = |a: usize, b: usize| by_place(points[b], points[a]) == Ordering::Less;
         let least = (0..points.len()).reduce(|a, b| if less(a, b) { b } else { a });
         points.rotate_left(least.unwrap_or(0));
-        if crate::faces::twice_area(&points) > 0 {
+        // A simple ring turns at its least point as it does on the whole.
+        if points.len() > 2 && orient(points[points.len() - 1], points[0], points[1]) > 0.0 {
             self.outer = points;
         } else {
             self.holes.push(points);

@@ -88,7 +88,7 @@ impl<L> Arrangement<L> {
                 let line = self.topology.line(h as usize / 2);
                 if h & 1 == 0 { ring.extend(line) } else { ring.extend(line.iter().rev()) }
             }
-            -crate::faces::twice_area(&ring)
+            -twice_area(&ring)
         };
         let twice: i128 = self.topology.outlines.iter().map(|&half| border(half)).sum();
         let enclosed = self.lattice.area(twice as f64 * 0.5);
@@ -100,15 +100,7 @@ impl<L> Arrangement<L> {
 
     fn inside_points(&self, id: FaceId) -> Result<(), Invalid> {
         let p = self.face(id).inside_point();
-        let inside = match self.locate(p) {
-            Location::Face(face) => face == id,
-            Location::Unbounded => false,
-            // A point on a dangling edge is inside all the same.
-            Location::Edge(_) | Location::Vertex(_) => {
-                self.edges().any(|e| e.is_dangling())
-                    && self.topology.face_at(self.lattice.scaled(p)) == id.0
-            }
-        };
+        let inside = self.locate(p) == Location::Face(id);
         if inside || self.is_thin(&self.face(id).polygon()) {
             return Ok(());
         }
@@ -126,6 +118,13 @@ impl<L> Arrangement<L> {
         let length: f64 = polygon.rings().map(fgm_core::Ring::length).sum();
         polygon.area() < length * THICK * self.blur(polygon)
     }
+}
+
+/// Twice the signed area of a ring in lattice steps; exact.
+fn twice_area(ring: &[Point2]) -> i128 {
+    let whole = |p: &Point2| (i128::from(p.x as i64), i128::from(p.y as i64));
+    let next = ring.iter().map(whole).cycle().skip(1);
+    ring.iter().map(whole).zip(next).map(|(a, b)| a.0 * b.1 - a.1 * b.0).sum()
 }
 
 impl Topology {
