@@ -3,6 +3,7 @@
 pub(crate) mod clipper;
 pub(crate) mod grid;
 mod local;
+pub(crate) mod near;
 pub(crate) mod simplify;
 
 use fgm_core::Polygon;

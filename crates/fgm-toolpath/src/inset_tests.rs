@@ -134,11 +134,10 @@ proptest! {
     fn insets_keep_their_distance(polygon in wobbly(), distance in 0.05..1.5f64) {
         let inset = ClipperInset::default();
         let out = inset.inset(std::slice::from_ref(&polygon), distance);
-        let edges = polygon.rings().flat_map(fgm_core::Ring::edges).collect();
-        let grid = grid::EdgeGrid::new(edges, distance);
+        let border = near::NearBorder::new(std::slice::from_ref(&polygon), distance);
         for (a, b) in out.iter().flat_map(Polygon::rings).flat_map(fgm_core::Ring::edges) {
             prop_assert!(polygon.contains(a));
-            prop_assert!(!grid.any_within(a, b, distance - 3e-3, |_| false), "{} {}", a, b);
+            prop_assert!(!border.any_within(a, b, distance - 3e-3, [near::NO_EDGE; 3]), "{} {}", a, b);
         }
     }
 }

@@ -1,6 +1,9 @@
 //! The triangles inside a polygon.
 
-use super::{flip::flip, ribbon::ribbon};
+use super::{
+    flip::flip,
+    ribbon::{annulus, ribbon},
+};
 use fgm_core::{Point2, Polygon};
 use spade::{ConstrainedDelaunayTriangulation, Triangulation};
 
@@ -52,8 +55,12 @@ impl Mesh {
                 vertices.extend((0..parts).map(part));
             }
         }
-        let quick =
-            if polygon.holes.is_empty() { ribbon(&vertices, widest).and_then(flip) } else { None };
+        let quick = match starts[..] {
+            [_] => ribbon(&vertices, widest),
+            [_, hole] => annulus(&vertices[..hole], &vertices[hole..], widest),
+            _ => None,
+        };
+        let quick = quick.and_then(flip);
         Self { triangles: quick.unwrap_or_else(|| delaunay(&vertices, &starts)) }
     }
 

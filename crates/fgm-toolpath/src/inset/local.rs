@@ -2,7 +2,7 @@
 
 use fgm_core::{Point2, Polygon, Ring};
 
-use super::grid::EdgeGrid;
+use super::near::{NO_EDGE, NearBorder};
 
 /// How much nearer than the distance a moved border may come to the old one, mm: rounding.
 const SLACK: f64 = 1e-5;
@@ -18,11 +18,8 @@ const MOST_PASSES: usize = 12;
 /// that would make borders meet, or an edge vanish.
 pub(super) fn offset(region: &[Polygon], distance: f64) -> Option<Vec<Polygon>> {
     let out: Vec<Polygon> = region.iter().map(|p| moved(p, distance)).collect::<Option<_>>()?;
-    let edges: Vec<_> = region.iter().flat_map(Polygon::rings).flat_map(Ring::edges).collect();
-    let length: f64 = edges.iter().map(|(a, b)| a.distance(*b)).sum();
     let reach = distance.abs();
-    let mean = length / edges.len().max(1) as f64;
-    let grid = EdgeGrid::new(edges, reach.max(mean));
+    let border = NearBorder::new(region, reach);
     let rings = region.iter().zip(&out).flat_map(|(old, new)| old.rings().zip(new.rings()));
     let mut first = 0;
     let meets = rings.into_iter().any(|(old, new)| {
@@ -33,8 +30,9 @@ pub(super) fn offset(region: &[Polygon], distance: f64) -> Option<Vec<Polygon>> 
         // by its making. Where edges vanished, which comes from which is not known.
         let whole = new.points.len() == n;
         new.edges().enumerate().any(|(i, (a, b))| {
-            let own = [(i + n - 1) % n, i, (i + 1) % n].map(|edge| (base + edge) as u32);
-            grid.any_within(a, b, reach - SLACK, |edge| whole && own.contains(&edge))
+            let own = [if i > 0 { i - 1 } else { n - 1 }, i, if i + 1 < n { i + 1 } else { 0 }];
+            let own = own.map(|edge| if whole { (base + edge) as u32 } else { NO_EDGE });
+            border.any_within(a, b, reach - SLACK, own)
         })
     });
     (!meets).then_some(out)

@@ -10,6 +10,9 @@ use crate::{Inset, gap::shaved, inset::simplify, region};
 /// at least 0.6 spacings between its inner sides, room for a bead of the least width, and what
 /// takes no loop is at most 2.6 spacings thick, filled by one or two beads.
 const HALF_LOOP: f64 = 1.3;
+/// Shares of that to try in turn: where sides run along at just this distance the cuts may not work
+/// out, and a little more or less settles it.
+const OTHERWISE: [f64; 4] = [1.0, 0.95, 1.06, 0.9];
 /// How far a thin rest stands off the beads beside it, mm, so that rounding makes no slivers.
 const STAND_OFF: f64 = 1e-2;
 
@@ -17,7 +20,7 @@ const STAND_OFF: f64 = 1e-2;
 const LEAST_THIN: f64 = 0.1;
 
 /// How far a border may be moved by dropping vertices before it is looked at, mm.
-const SIMPLIFY: f64 = 1e-3;
+const SIMPLIFY: f64 = 5e-3;
 
 /// A region taken apart.
 #[derive(Debug, Default)]
@@ -66,7 +69,8 @@ fn step(
 ) {
     let half = HALF_LOOP * spacing;
     let Some(polygon) = simplify::polygon(polygon, SIMPLIFY) else { return };
-    if let Some(split) = split(&polygon, half) {
+    let splits = || OTHERWISE.iter().find_map(|share| split(&polygon, share * half));
+    if let Some(split) = splits() {
         // What needed no cut keeps its shape.
         let clear = if split.whole { 0.0 } else { spacing };
         for polygon in split.thick {

@@ -8,7 +8,10 @@
 
 use fgm_core::{Point2, Polygon, Ring};
 
-use crate::inset::{clipper::nest, grid::EdgeGrid};
+use crate::inset::{
+    clipper::nest,
+    near::{NO_EDGE, NearBorder},
+};
 
 /// How much nearer than its distance a moved edge may come to the border, mm: rounding.
 const SLACK: f64 = 1e-5;
@@ -19,6 +22,9 @@ const LONGEST: f64 = 3.0;
 const SHORT: f64 = 0.75;
 /// A bay that stays this near the centre of its disc, in radii, is a corner and no thin part.
 const CORNER: f64 = 2.1;
+/// A reflex corner is sharp where the cosine of its turn is less than this times the sine: from
+/// 27 degrees on.
+const SHARP: f64 = 2.0;
 /// `1 + cos` of the turn from which on a moved corner would lie too far away.
 const SHARPEST: f64 = 0.05;
 
@@ -32,9 +38,14 @@ pub(super) struct Split {
 }
 
 /// A ring with what is known of its edges; edge `i` runs from vertex `i` to the next.
+#[derive(Default)]
 struct Side {
     points: Vec<Point2>,
+    /// The edge of the polygon, counted through its rings, that each one is part of.
+    sources: Vec<u32>,
     moved: Vec<Point2>,
+    /// Whether moving the vertex was cut short at a sharp corner.
+    blunt: Vec<bool>,
     fits: Vec<bool>,
     /// Edges that fit in their middle only.
     partial: Vec<usize>,
@@ -63,14 +74,18 @@ struct Cut {
 
 /// Cuts a polygon where it is thinner than `2 * radius`; `None` where the cuts do not work out.
 pub(super) fn split(polygon: &Polygon, radius: f64) -> Option<Split> {
-    let coarse = sides(polygon, radius, LONGEST)?;
-    let runs = all_runs(&coarse);
-    if hides_more(&coarse, &runs) {
-        let fine = sides(polygon, radius, SHORT)?;
-        let runs = all_runs(&fine);
-        return cut_up(polygon, radius, &fine, &runs);
+    let border = NearBorder::new(std::slice::from_ref(polygon), radius);
+    let mut sides = sides(polygon, &border, radius)?;
+    let mut runs = all_runs(&sides);
+    let hidden = hidden(&sides, &runs);
+    if !hidden.is_empty() {
+        look_closer(&mut sides, &hidden, &border, radius)?;
+        runs = all_runs(&sides);
     }
-    cut_up(polygon, radius, &coarse, &runs)
+    if sides.iter().any(|side| side.corner_hides(&border, radius)) {
+        return None;
+    }
+    cut_up(polygon, radius, &sides, &runs)
 }
 
 /// The runs of the rings that fit in part.
@@ -108,62 +123,143 @@ fn cut_up(polygon: &Polygon, radius: f64, sides: &[Side], runs: &[Run]) -> Optio
     ((sum - whole).abs() < 1e-6 * (1.0 + whole)).then_some(split)
 }
 
-/// The rings, their edges cut into parts of at most `longest` radii.
-fn sides(polygon: &Polygon, radius: f64, longest: f64) -> Option<Vec<Side>> {
-    let edges: Vec<_> = polygon.rings().flat_map(Ring::edges).collect();
-    let grid = EdgeGrid::new(edges, 1.5 * radius);
-    let mut sides = Vec::new();
+/// The rings, their edges cut into parts of at most [`LONGEST`] radii.
+fn sides(polygon: &Polygon, border: &NearBorder, radius: f64) -> Option<Vec<Side>> {
+    let mut sides = Vec::with_capacity(1 + polygon.holes.len());
     let mut first = 0;
     for ring in polygon.rings() {
-        let (points, sources) = subdivided(ring, longest * radius, first);
+        let mut side = Side::default();
+        side.points.reserve(2 * ring.points.len());
+        side.sources.reserve(2 * ring.points.len());
+        for ((a, b), edge) in ring.edges().zip(first..) {
+            side.push_parts(a, b, edge, LONGEST * radius);
+        }
         first += ring.points.len() as u32;
-        let (moved, blunt) = moved(&points, radius)?;
-        let n = points.len();
-        let mut side = Side { points, moved, fits: Vec::new(), partial: Vec::new() };
-        for i in 0..n {
-            let next = (i + 1) % n;
-            let (a, b) = (side.moved[i], side.moved[next]);
-            let forward = (b - a).dot(side.points[next] - side.points[i]) > 0.0;
-            // The edge it comes from is the radius away by its making, unless a corner was blunted.
-            let own = (!blunt[i] && !blunt[next]).then_some(sources[i]);
-            let near = |a, b| grid.any_within(a, b, radius - SLACK, |edge| Some(edge) == own);
-            let fits = forward && !near(a, b);
-            side.fits.push(fits);
-            let middle = (a + b) * 0.5;
-            if forward && !fits && !near(middle, middle) {
-                side.partial.push(i);
-            }
+        side.move_by(radius)?;
+        for edge in 0..side.points.len() {
+            side.look_at(edge, border, radius);
         }
         sides.push(side);
     }
     Some(sides)
 }
 
-/// A ring's points with long edges cut up, and the edge that each new one is part of, counted from
-/// `first`.
-fn subdivided(ring: &Ring, longest: f64, first: u32) -> (Vec<Point2>, Vec<u32>) {
-    let (mut out, mut sources) = (Vec::new(), Vec::new());
-    for ((a, b), edge) in ring.edges().zip(first..) {
-        let parts = (a.distance(b) / longest).ceil().clamp(1.0, 1e4) as usize;
-        out.extend((0..parts).map(|i| a + (b - a) * (i as f64 / parts as f64)));
-        sources.extend((0..parts).map(|_| edge));
+/// Cuts edges up into parts of at most [`SHORT`] radii and looks at these.
+fn look_closer(
+    sides: &mut [Side],
+    hidden: &[(usize, usize)],
+    border: &NearBorder,
+    radius: f64,
+) -> Option<()> {
+    let mut hidden = hidden.iter().peekable();
+    for (index, side) in sides.iter_mut().enumerate() {
+        if hidden.peek().is_none_or(|h| h.0 != index) {
+            continue;
+        }
+        let old = std::mem::take(side);
+        let mut new = Vec::new();
+        for edge in 0..old.points.len() {
+            let (a, b) = (old.points[edge], old.points[(edge + 1) % old.points.len()]);
+            if hidden.next_if(|h| **h == (index, edge)).is_some() {
+                side.push_parts(a, b, old.sources[edge], SHORT * radius);
+                new.resize(side.points.len(), true);
+                side.fits.resize(side.points.len(), false);
+            } else {
+                side.points.push(a);
+                side.sources.push(old.sources[edge]);
+                side.fits.push(old.fits[edge]);
+                new.push(false);
+            }
+        }
+        side.move_by(radius)?;
+        (0..new.len()).filter(|&e| new[e]).for_each(|edge| side.look_at(edge, border, radius));
     }
-    (out, sources)
+    Some(())
 }
 
-/// The points moved along their bisectors, and whether that was cut short at a sharp corner.
-fn moved(points: &[Point2], radius: f64) -> Option<(Vec<Point2>, Vec<bool>)> {
-    let n = points.len();
-    let mut before = (points[0] - points[n - 1]).try_normalize()?;
-    let (mut out, mut blunt) = (Vec::with_capacity(n), Vec::with_capacity(n));
-    for i in 0..n {
-        let after = (points[(i + 1) % n] - points[i]).try_normalize()?;
-        let open = 1.0 + before.dot(after);
-        blunt.push(open < SHARPEST);
-        out.push(points[i] + (before + after).perp() * (radius / open.max(SHARPEST)));
-        before = after;
+impl Side {
+    /// Appends an edge in parts no longer than `longest`.
+    fn push_parts(&mut self, a: Point2, b: Point2, edge: u32, longest: f64) {
+        self.points.push(a);
+        self.sources.push(edge);
+        let squared = a.distance_squared(b);
+        if squared <= longest * longest {
+            return;
+        }
+        let parts = (squared.sqrt() / longest).ceil().clamp(1.0, 1e4) as usize;
+        for i in 1..parts {
+            self.points.push(a + (b - a) * (i as f64 / parts as f64));
+            self.sources.push(edge);
+        }
     }
-    Some((out, blunt))
+
+    /// Moves the points along their bisectors.
+    fn move_by(&mut self, radius: f64) -> Option<()> {
+        let n = self.points.len();
+        let mut before = (self.points[0] - self.points[n - 1]).try_normalize()?;
+        self.moved.reserve(n);
+        self.blunt.reserve(n);
+        for i in 0..n {
+            let next = self.points[if i + 1 < n { i + 1 } else { 0 }];
+            let after = (next - self.points[i]).try_normalize()?;
+            let open = 1.0 + before.dot(after);
+            self.blunt.push(open < SHARPEST);
+            let far = radius / open.max(SHARPEST);
+            self.moved.push(self.points[i] + (before + after).perp() * far);
+            before = after;
+        }
+        Some(())
+    }
+
+    /// Whether a disc fits that touches a sharp reflex corner and neither of its edges: something
+    /// thick between such corners has no edge that fits.
+    fn corner_hides(&self, border: &NearBorder, radius: f64) -> bool {
+        let n = self.points.len();
+        (0..n).any(|i| {
+            let (before, after) =
+                (if i > 0 { i - 1 } else { n - 1 }, if i + 1 < n { i + 1 } else { 0 });
+            if self.fits[i] || self.fits[before] {
+                return false;
+            }
+            let (u, v) =
+                (self.points[i] - self.points[before], self.points[after] - self.points[i]);
+            let turn = u.perp_dot(v);
+            if turn >= 0.0 || u.dot(v) > SHARP * -turn {
+                return false;
+            }
+            let Some(inward) = (self.moved[i] - self.points[i]).try_normalize() else {
+                return false;
+            };
+            let centre = self.points[i] + inward * radius;
+            let skip = [self.sources[before], self.sources[i], NO_EDGE];
+            !border.any_within(centre, centre, radius - SLACK, skip)
+        })
+    }
+
+    /// Finds whether an edge fits, in whole or in its middle.
+    fn look_at(&mut self, edge: usize, border: &NearBorder, radius: f64) {
+        let n = self.points.len();
+        let next = if edge + 1 < n { edge + 1 } else { 0 };
+        let (a, b) = (self.moved[edge], self.moved[next]);
+        // What it comes from is the radius away by its making, and so is what lies beside that,
+        // unless a corner was blunted.
+        let (start, end) = (!self.blunt[edge], !self.blunt[next]);
+        let known = |is: bool, at: usize| if is { self.sources[at] } else { NO_EDGE };
+        let before = if edge > 0 { edge - 1 } else { n - 1 };
+        let skip = [known(start && end, edge), known(start, before), known(end, next)];
+        let near = |a, b| border.any_within(a, b, radius - SLACK, skip);
+        let forward = (b - a).dot(self.points[next] - self.points[edge]) > 0.0;
+        let fits = forward && !near(a, b);
+        if edge < self.fits.len() {
+            self.fits[edge] = fits;
+        } else {
+            self.fits.push(fits);
+        }
+        let middle = (a + b) * 0.5;
+        if forward && !fits && !near(middle, middle) {
+            self.partial.push(edge);
+        }
+    }
 }
 
 fn runs_of(side: &Side, index: usize, runs: &mut Vec<Run>) {
@@ -180,15 +276,19 @@ fn runs_of(side: &Side, index: usize, runs: &mut Vec<Run>) {
     }
 }
 
-/// Whether an edge fits in part that is not beside a run: something thick has no whole edge that
-/// fits, and would be missed.
-fn hides_more(sides: &[Side], runs: &[Run]) -> bool {
-    let beside = |side: usize, edge: usize| {
-        let n = sides[side].points.len();
-        let own = runs.iter().filter(|r| r.side == side);
-        own.clone().any(|r| (r.last + 1) % n == edge || (r.first + n - 1) % n == edge)
-    };
-    sides.iter().enumerate().any(|(i, s)| s.partial.iter().any(|&edge| !beside(i, edge)))
+/// Edges, by side, that fit in their middle and are not beside a run: something thick has no whole
+/// edge that fits, and would be missed.
+fn hidden(sides: &[Side], runs: &[Run]) -> Vec<(usize, usize)> {
+    let mut out = Vec::new();
+    for (index, side) in sides.iter().enumerate() {
+        let n = side.points.len();
+        let beside = |&&edge: &&usize| {
+            let of = |r: &&Run| (r.last + 1) % n == edge || (r.first + n - 1) % n == edge;
+            runs.iter().filter(|r| r.side == index).any(|r| of(&r))
+        };
+        out.extend(side.partial.iter().filter(|e| !beside(e)).map(|&edge| (index, edge)));
+    }
+    out
 }
 
 /// The cut after each run.

@@ -82,3 +82,11 @@ proptest! {
         }
     }
 }
+
+/// Its core touches the border only at the corners between the arms: no edge fits.
+#[test]
+fn a_small_star_is_not_all_thin() {
+    let wobble = |a: f64| 1.546 * (1.0 + 0.271 * (10.0 * a + 3.32).sin());
+    let star = Polygon::simple(radial(Point2::new(40.0, 9.0), 140, wobble));
+    assert_eq!(counts(&star, 0.456), None);
+}
