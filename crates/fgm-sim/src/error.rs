@@ -30,6 +30,14 @@ pub enum SimError {
         /// The most cells.
         limit: u64,
     },
+    /// A picture could not be made or written.
+    #[error("layer {layer}: no picture: {message}")]
+    Picture {
+        /// From 1.
+        layer: u32,
+        /// Why.
+        message: String,
+    },
     /// The design has no mixture, or no outline, where it is compared.
     #[error("layer {layer}: {message}")]
     Design {

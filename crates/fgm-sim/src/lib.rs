@@ -13,7 +13,9 @@
 //! | G-code to what the machine does | [`Replay`], [`Follower`], [`ReplayOptions`], [`Event`]: [`Layer`], [`Bead`], [`Travel`], [`Heat`] |
 //! | what is wrong with it | [`Faults`], [`Fault`], [`FaultKind`] |
 //! | from command to deposit | [`Deposit`], [`Model`], [`Transition`], [`Thermal`], [`Piece`] |
-//! | everything about a file | [`check`], [`CheckOptions`], [`CheckReport`] |
+//! | everything about a file | [`check`], [`CheckOptions`], [`CheckDesign`], [`CheckReport`] |
+//! | a layer's cells | [`Coverage`], [`LayerFigures`], [`Picture`] |
+//! | against the design | [`Fidelity`], [`Reference`], [`Shades`], [`Spread`] |
 //! | figures | [`Totals`], [`Figures`] |
 //! | what can go wrong | [`SimError`] |
 //!
@@ -30,19 +32,25 @@ mod event;
 mod fault;
 mod foam;
 mod head;
+mod metrics;
+mod picture;
 mod piece;
+mod raster;
 mod replay;
 mod section;
 mod totals;
 mod transition;
 
-pub use check::{CheckOptions, CheckReport, check};
+pub use check::{CheckDesign, CheckOptions, CheckReport, CoverageFigures, OutlineAt, check};
 pub use deposit::{Deposit, Model, Thermal};
 pub use error::SimError;
 pub use event::{Bead, Event, Heat, Layer, Travel};
 pub use fault::{Fault, FaultKind, Faults};
 pub use head::Head;
+pub use metrics::{Fidelity, FidelityFigures, Reference, Shades, Spread, SpreadFigures, Worst};
+pub use picture::{Picture, PictureKind};
 pub use piece::Piece;
+pub use raster::{Coverage, LayerFigures};
 pub use replay::{Follower, Replay, ReplayOptions};
 pub use totals::{Figures, Totals};
 pub use transition::Transition;

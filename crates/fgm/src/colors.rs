@@ -72,14 +72,24 @@ const SHOWN: [[u8; 3]; MAX_MATERIALS] = [
     [120, 120, 120],
 ];
 
+/// Colours (red, green, blue) for materials that have none of their own, in their order.
+pub fn usual_colors() -> &'static [[u8; 3]] {
+    &SHOWN
+}
+
+/// How each material of a design is shown: in its own colour (red, green, blue), else in a usual
+/// one.
+pub fn material_colors(design: &Design) -> Vec<[u8; 3]> {
+    let materials = design.materials.iter().zip(SHOWN);
+    materials.map(|(material, usual)| material.color.unwrap_or(usual)).collect()
+}
+
 /// How a mixture is shown: its materials' colours, mixed by volume.
 pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
+    let colors = material_colors(design);
     std::array::from_fn(|channel| {
-        let materials = design.materials.iter().zip(SHOWN).zip(mixture.fractions());
-        let parts = materials.map(|((material, other), fraction)| {
-            f64::from(material.color.unwrap_or(other)[channel]) * fraction
-        });
-        parts.sum::<f64>().round() as u8
+        let parts = colors.iter().zip(mixture.fractions());
+        parts.map(|(color, share)| f64::from(color[channel]) * share).sum::<f64>().round() as u8
     })
 }
 

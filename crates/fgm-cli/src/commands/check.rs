@@ -6,12 +6,23 @@ use std::{
 };
 
 use fgm::{
-    Settings,
+    Sections, Settings,
+    core::Point3,
+    field::Design,
     gcode::{Machine, Reader},
-    sim::{CheckOptions, CheckReport, Head, SimError},
+    sim::{
+        CheckDesign, CheckOptions, CheckReport, CoverageFigures, FidelityFigures, Head, Picture,
+        Reference, SimError,
+    },
 };
 
-use crate::{args::CheckArguments, commands::slice, failure::Failure, output::Output, show};
+use crate::{
+    args::{CheckArguments, DesignArguments},
+    commands::slice::{self, slice_failure},
+    failure::Failure,
+    output::Output,
+    show,
+};
 
 /// Checks what a machine lays down from a file of G-code.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -19,12 +30,30 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     let fail = |error: SimError| sim_failure(&arguments.gcode, &error);
     let head = Head::read(&mut reader).map_err(fail)?;
     let machine = machine(arguments, &head)?;
-    let options = options(arguments, &head, machine.as_ref());
-
-    let report = fgm::sim::check(reader, &options).map_err(fail)?;
+    let loaded = arguments.design.as_deref().map(|path| load(path, arguments)).transpose()?;
+    let design = loaded.as_ref().map(|loaded| &loaded.design);
+    let options = options(arguments, &head, machine.as_ref(), design);
+    if let Some(folder) = &arguments.pictures {
+        std::fs::create_dir_all(folder).map_err(|e| Failure::write(folder, &e))?;
+    }
+    // The places are tried before the work.
     let json = arguments.json.as_deref();
-    if let Some(path) = json {
-        let mut file = Output::create(path)?;
+    let json_file = json.map(Output::create).transpose()?;
+
+    let report = match design {
+        None => fgm::sim::check(reader, &options, None, &mut |p| paint(arguments, p)),
+        Some(design) => {
+            let offset = offset(arguments, &head)?;
+            let settings = Settings::default();
+            let sections = Sections::new(design, &settings).map_err(|e| slice_failure(&e))?;
+            let outline = |z| sections.at(z).map_err(|e| e.to_string());
+            let reference = Reference { materials: design.fractions.as_ref(), offset };
+            let design = CheckDesign { reference, outline: &outline };
+            fgm::sim::check(reader, &options, Some(&design), &mut |p| paint(arguments, p))
+        }
+    };
+    let report = report.map_err(fail)?;
+    if let (Some(mut file), Some(path)) = (json_file, json) {
         serde_json::to_writer_pretty(&mut file, &report)
             .map_err(io::Error::from)
             .and_then(|()| writeln!(file))
@@ -41,6 +70,41 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
     }
 }
 
+fn load(path: &Path, arguments: &CheckArguments) -> Result<fgm::design::Loaded, Failure> {
+    let loaded = slice::load(&DesignArguments {
+        design: path.to_path_buf(),
+        fractions: arguments.fractions.clone(),
+        size: arguments.size,
+    })?;
+    loaded.warnings.iter().for_each(|w| show::warning(&w.to_string()));
+    Ok(loaded)
+}
+
+/// Where the design stands on the bed.
+fn offset(arguments: &CheckArguments, head: &Head) -> Result<Point3, Failure> {
+    arguments.offset.map(Point3::from_array).or(head.offset).ok_or_else(|| {
+        Failure::usage(format!(
+            "{}: its head has no `; design_offset = DX DY DZ`; say where the design stands with \
+             --offset",
+            arguments.gcode.display()
+        ))
+    })
+}
+
+/// Writes a picture into its folder.
+fn paint(arguments: &CheckArguments, picture: &Picture) -> Result<(), SimError> {
+    let Some(folder) = &arguments.pictures else { return Ok(()) };
+    let name = format!("layer-{:04}-{}.png", picture.layer, picture.kind.name());
+    let path = folder.join(name);
+    let written = std::fs::write(&path, picture.png()?);
+    written.map_err(|e| SimError::Picture {
+        layer: picture.layer,
+        message: format!("{}: {e}", path.display()),
+    })
+}
+
+/// Cells for coverage where none are asked for, mm.
+const CELL: f64 = 0.1;
 /// A block this large is read at a time.
 const BLOCK: usize = 1 << 18;
 
@@ -58,6 +122,7 @@ fn open(path: &Path) -> Result<Box<dyn BufRead>, Failure> {
 fn sim_failure(path: &Path, error: &SimError) -> Failure {
     match error {
         SimError::Io(error) => Failure::read(path, error),
+        error @ SimError::Picture { .. } => Failure::could_not(error.to_string()),
         error => Failure::usage(error.to_string()),
     }
 }
@@ -81,16 +146,35 @@ fn machine(arguments: &CheckArguments, head: &Head) -> Result<Option<Machine>, F
     }
 }
 
-fn options(arguments: &CheckArguments, head: &Head, machine: Option<&Machine>) -> CheckOptions {
+fn options(
+    arguments: &CheckArguments,
+    head: &Head,
+    machine: Option<&Machine>,
+    design: Option<&Design>,
+) -> CheckOptions {
     let mut options = CheckOptions::of(machine);
     options.replay.tagged_layers = head.tagged_layers;
     if let Some(transition) = arguments.transition {
         options.model.transition = transition;
     }
     options.model.thermal = arguments.thermal;
+    let index = |layer: usize| u32::try_from(layer - 1).unwrap_or(u32::MAX);
     if let Some((first, last)) = arguments.layers {
-        let index = |layer: usize| u32::try_from(layer - 1).unwrap_or(u32::MAX);
         options.layers = index(first)..=index(last);
+    }
+    options.spacing = arguments.spacing;
+    let cell = arguments.cell.or(design.map(|_| CELL));
+    options.cell = cell.filter(|cell| *cell > 0.0);
+    options.colors = match design {
+        _ if !arguments.material_colors.is_empty() => arguments.material_colors.clone(),
+        Some(design) => fgm::material_colors(design),
+        None => fgm::usual_colors().to_vec(),
+    };
+    if arguments.pictures.is_some() {
+        options.pictures = arguments.picture_layers.iter().map(|layer| layer - 1).collect();
+        if options.pictures.is_empty() {
+            options.pictures.insert(0);
+        }
     }
     options
 }
@@ -150,6 +234,12 @@ fn describe(arguments: &CheckArguments, machine: Option<&Machine>, report: &Chec
         report.mass_g,
         report.purge_g
     );
+    if let Some(fidelity) = &report.fidelity {
+        describe_fidelity(fidelity, &mut text);
+    }
+    if let Some(coverage) = &report.coverage {
+        describe_coverage(coverage, &mut text);
+    }
     if report.fault_count == 0 {
         let _ = writeln!(text, "faults    none");
     }
@@ -160,4 +250,55 @@ fn describe(arguments: &CheckArguments, machine: Option<&Machine>, report: &Chec
         }
     }
     text
+}
+
+fn describe_fidelity(fidelity: &FidelityFigures, text: &mut String) {
+    let rows = [
+        ("commanded", &fidelity.commanded, &fidelity.commanded_delta_e),
+        ("deposited", &fidelity.deposited, &fidelity.deposited_delta_e),
+    ];
+    for (name, error, color) in rows {
+        let _ = writeln!(
+            text,
+            "{name:9} composition off by {:.4} (mean), {:.4} (rms), {:.4} (95 %); \
+             delta E 2000 {:.2} (mean), {:.2} (95 %)",
+            error.mean, error.rms, error.percentile_95, color.mean, color.percentile_95
+        );
+        if let Some(worst) = &error.worst {
+            let [x, y, z] = worst.at;
+            let _ = writeln!(
+                text,
+                "          worst {:.4} at ({x:.2}, {y:.2}, {z:.2}) of the design, layer {}, line {}",
+                worst.error, worst.layer, worst.line
+            );
+        }
+    }
+    if fidelity.undefined > 0 {
+        let _ = writeln!(
+            text,
+            "          {} places left out, where the design has no mixture",
+            fidelity.undefined
+        );
+    }
+}
+
+fn describe_coverage(coverage: &CoverageFigures, text: &mut String) {
+    let percent = |share: f64| format!("{:.2} %", 100.0 * share);
+    let _ = write!(text, "coverage  ");
+    if let (Some(covered), Some(outside), Some(filled)) =
+        (coverage.coverage, coverage.outside, coverage.filled)
+    {
+        let _ = write!(
+            text,
+            "{} of the design's area covered, {} outside it, {} of its volume laid down; ",
+            percent(covered),
+            percent(outside),
+            percent(filled)
+        );
+    }
+    let _ = write!(text, "{} of the beads' area laid twice", percent(coverage.overlap));
+    let _ = match coverage.least_covered {
+        Some(layer) => writeln!(text, "; least in layer {layer}"),
+        None => writeln!(text),
+    };
 }
