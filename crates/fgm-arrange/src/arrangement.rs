@@ -83,7 +83,7 @@ impl Arranger {
         let rank = |label: &L| ranked.binary_search(label).unwrap_or_default() as u32;
         self.ranks.clear();
         self.ranks.extend(chains.iter().map(|chain| rank(&chain.label)));
-        self.graph.build(&self.noder, &self.ranks, options.keep_dangling);
+        self.graph.build(&mut self.noder, &self.ranks, options.keep_dangling);
         let topology = Topology::build(&mut self.noder, &mut self.graph);
         let label =
             |&key: &u32| EdgeLabel { label: ranked[key as usize >> 1], forward: key & 1 == 1 };

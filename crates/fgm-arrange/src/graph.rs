@@ -7,6 +7,9 @@ use std::cmp::Ordering;
 /// None.
 const NONE: u32 = u32::MAX;
 
+/// In an arc's label: it is a list's name.
+const LIST: u32 = 1 << 31;
+
 /// The arcs of a noder as a graph: half-arcs around their nodes in order of angle, repeated arcs
 /// merged, bridges found. Half-arc `2 a` leaves the first end of arc `a`, `2 a + 1` its last.
 #[derive(Debug, Default)]
@@ -15,11 +18,12 @@ pub(crate) struct Graph {
     starts: Vec<u32>,
     degree: Vec<u32>,
     around: Vec<u32>,
-    /// For each arc the one that stands for it.
-    representative: Vec<u32>,
-    /// `representative << 32 | rank << 1 | forward`, in order.
-    label_keys: Vec<u64>,
-    label_starts: Vec<u32>,
+    /// Arcs that repeat another, and that other.
+    repeated: Vec<(u32, u32)>,
+    /// The labels of arcs that stand for several, list after list, as `rank << 1 | forward`.
+    labels: Vec<u32>,
+    /// Where each list begins in `labels`, and the end.
+    lists: Vec<u32>,
     pub(crate) bridge: Vec<bool>,
     /// For each half-arc the one that follows along the face to its left.
     next: Vec<u32>,
@@ -43,10 +47,11 @@ pub(crate) fn origin(arcs: &[Arc], half: u32) -> u32 {
 }
 
 impl Graph {
-    /// Replaces the content by the noder's arcs. `ranks` has a label's rank for each chain.
-    pub(crate) fn build(&mut self, noder: &Noder, ranks: &[u32], keep_bridges: bool) {
-        let merged = self.sort_around(noder);
-        self.collect_labels(&noder.arcs, ranks, merged);
+    /// Replaces the content by the noder's arcs, and their chains by labels. `ranks` has a label's
+    /// rank for each chain.
+    pub(crate) fn build(&mut self, noder: &mut Noder, ranks: &[u32], keep_bridges: bool) {
+        self.sort_around(noder);
+        self.collect_labels(&mut noder.arcs, ranks);
         self.find_bridges(&noder.arcs);
         if !keep_bridges {
             self.drop_bridges();
@@ -58,9 +63,9 @@ impl Graph {
         memory::rest(&mut self.starts);
         memory::rest(&mut self.degree);
         memory::rest(&mut self.around);
-        memory::rest(&mut self.representative);
-        memory::rest(&mut self.label_keys);
-        memory::rest(&mut self.label_starts);
+        memory::rest(&mut self.repeated);
+        memory::rest(&mut self.labels);
+        memory::rest(&mut self.lists);
         memory::rest(&mut self.bridge);
     }
 
@@ -71,13 +76,17 @@ impl Graph {
     }
 
     /// The labels of an arc that stands for itself: `rank << 1 | forward`, in order.
-    pub(crate) fn labels(&self, arc: u32) -> impl ExactSizeIterator<Item = u32> + Clone {
-        let range = self.label_starts[arc as usize]..self.label_starts[arc as usize + 1];
-        self.label_keys[range.start as usize..range.end as usize].iter().map(|&key| key as u32)
+    #[inline]
+    pub(crate) fn labels<'a>(&'a self, arc: &'a Arc) -> &'a [u32] {
+        if arc.label & LIST == 0 {
+            return std::slice::from_ref(&arc.label);
+        }
+        let list = (arc.label & !LIST) as usize;
+        &self.labels[self.lists[list] as usize..self.lists[list + 1] as usize]
     }
 
-    /// Sorts the half-arcs around their nodes; whether any were repetitions of others.
-    fn sort_around(&mut self, noder: &Noder) -> bool {
+    /// Sorts the half-arcs around their nodes, without repetitions.
+    fn sort_around(&mut self, noder: &Noder) {
         let (nodes, arcs) = (noder.nodes().len(), &noder.arcs[..]);
         self.degree.clear();
         self.degree.resize(nodes, 0);
@@ -98,32 +107,28 @@ impl Graph {
             self.around[(self.starts[node] + self.degree[node]) as usize] = half;
             self.degree[node] += 1;
         }
-        self.representative.clear();
-        self.representative.extend(0..arcs.len() as u32);
-        let mut merged = false;
+        self.repeated.clear();
         for node in 0..nodes {
-            merged |= self.sort_node(noder, node);
+            self.sort_node(noder, node);
         }
-        merged
     }
 
     /// Puts a node's half-arcs in order. Straight ones in one direction to one other node are one;
-    /// the first stands for all. Whether there were any such.
-    fn sort_node(&mut self, noder: &Noder, node: usize) -> bool {
+    /// the first stands for all.
+    fn sort_node(&mut self, noder: &Noder, node: usize) {
         let (start, arcs) = (self.starts[node] as usize, &noder.arcs[..]);
         let around = &mut self.around[start..start + self.degree[node] as usize];
         self.rays.clear();
         self.rays.extend(around.iter().map(|&half| (direction(&noder.points, arcs, half), half)));
         self.rays.sort_unstable_by(|a, b| by_angle(a.0, b.0).then(a.1.cmp(&b.1)));
-        let (mut kept, mut merged) = (0, false);
+        let mut kept = 0;
         let mut before: Option<(Point2, u32)> = None;
         for &(direction, half) in &self.rays {
             let same = |before: &(Point2, u32)| {
                 by_angle(before.0, direction) == Ordering::Equal && same_ends(arcs, before.1, half)
             };
             if let Some((_, first)) = before.filter(same) {
-                self.representative[half as usize / 2] = first / 2;
-                merged = true;
+                self.repeated.push((half / 2, first / 2));
             } else {
                 before = Some((direction, half));
                 around[kept] = half;
@@ -131,28 +136,30 @@ impl Graph {
             }
         }
         self.degree[node] = kept as u32;
-        merged
     }
 
-    /// Collects the labels of each arc and of those that it stands for.
-    fn collect_labels(&mut self, arcs: &[Arc], ranks: &[u32], merged: bool) {
-        self.label_keys.clear();
-        self.label_keys.extend(arcs.iter().zip(&self.representative).map(|(arc, &to)| {
-            let forward = arc.ends[0] == arcs[to as usize].ends[0];
-            u64::from(to) << 32 | u64::from(ranks[arc.chain as usize] << 1 | u32::from(forward))
-        }));
-        if merged {
-            self.label_keys.sort_unstable();
-            self.label_keys.dedup();
+    /// Replaces the arcs' chains by labels, and makes lists for those that stand for several.
+    fn collect_labels(&mut self, arcs: &mut [Arc], ranks: &[u32]) {
+        for arc in &mut *arcs {
+            arc.label = ranks[arc.label as usize] << 1 | 1;
         }
-        self.label_starts.clear();
-        let mut at = 0;
-        for arc in 0..=arcs.len() as u64 {
-            while self.label_keys.get(at).is_some_and(|key| key >> 32 < arc) {
-                at += 1;
-            }
-            self.label_starts.push(at as u32);
+        self.labels.clear();
+        self.lists.clear();
+        // Arc and label in one, to be sorted; repetitions come from both ends of an arc.
+        let mut keys: Vec<u64> = Vec::with_capacity(2 * self.repeated.len());
+        for &(arc, first) in &self.repeated {
+            let ([arc, own], to) = ([arc, first].map(|a| arcs[a as usize]), u64::from(first) << 32);
+            let against = u32::from(arc.ends[0] != own.ends[0]);
+            keys.extend([to | u64::from(own.label), to | u64::from(arc.label ^ against)]);
         }
+        keys.sort_unstable();
+        keys.dedup();
+        for list in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
+            arcs[(list[0] >> 32) as usize].label = LIST | self.lists.len() as u32;
+            self.lists.push(self.labels.len() as u32);
+            self.labels.extend(list.iter().map(|&key| key as u32));
+        }
+        self.lists.push(self.labels.len() as u32);
     }
 
     /// Edges on no cycle: dangling ones, and those that join two cycles. In the plane they are the
@@ -209,10 +216,10 @@ impl Graph {
         if onward == half {
             return None;
         }
-        let (mine, next) = (self.labels(half / 2), self.labels(onward / 2));
+        let label = |half: u32| self.labels(&arcs[half as usize / 2]);
+        let (mine, next) = (label(half), label(onward));
         let flip = (half ^ onward) & 1;
-        let same = mine.len() == next.len()
-            && mine.clone().all(|label| next.clone().any(|other| other == label ^ flip));
+        let same = mine.len() == next.len() && mine.iter().all(|&l| next.contains(&(l ^ flip)));
         same.then_some(onward)
     }
 }

@@ -31,8 +31,8 @@ pub(crate) struct Arc {
     pub(crate) last: u32,
     /// Nodes at its ends.
     pub(crate) ends: [u32; 2],
-    /// Index of the input chain.
-    pub(crate) chain: u32,
+    /// Index of the input chain; the graph replaces it by the label.
+    pub(crate) label: u32,
 }
 
 impl Arc {
@@ -133,7 +133,7 @@ impl Line<'_> {
             return;
         }
         self.points.push(p);
-        self.arcs.push(Arc { first: self.first, last, ends: [self.from, node], chain: self.chain });
+        self.arcs.push(Arc { first: self.first, last, ends: [self.from, node], label: self.chain });
         self.from = node;
         self.begin(p);
     }

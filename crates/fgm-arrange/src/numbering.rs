@@ -11,11 +11,10 @@ use std::cmp::Ordering;
 pub(crate) struct Numbering<'a> {
     noder: &'a Noder,
     graph: &'a Graph,
-    /// For each half-arc that begins or ends an edge at a vertex, the half-edge.
+    /// For each half-arc the half-edge that it is part of, as soon as that is written.
     half_edge: Vec<u32>,
     /// For each node its vertex.
     vertex: Vec<u32>,
-    done: Vec<bool>,
 }
 
 impl<'a> Numbering<'a> {
@@ -25,7 +24,6 @@ impl<'a> Numbering<'a> {
             graph,
             half_edge: vec![NONE; 2 * noder.arcs.len()],
             vertex: vec![NONE; noder.nodes().len()],
-            done: vec![false; noder.arcs.len()],
         }
     }
 
@@ -45,11 +43,8 @@ impl<'a> Numbering<'a> {
         for node in 0..nodes.len() {
             if self.vertex[node] != NONE {
                 for &half in graph.around(node) {
-                    if !self.done[half as usize / 2] {
+                    if self.half_edge[half as usize] == NONE {
                         let last = self.edge(half, out);
-                        let edge = 2 * out.ends.len() as u32;
-                        self.half_edge[half as usize] = edge;
-                        self.half_edge[last as usize ^ 1] = edge + 1;
                         let ends = [node as u32, origin(&self.noder.arcs, last ^ 1)];
                         out.ends.push(ends.map(|end| self.vertex[end as usize]));
                     }
@@ -80,12 +75,15 @@ impl<'a> Numbering<'a> {
         out.bridge.push(self.graph.bridge[first as usize / 2]);
         let labels = out.labels.len();
         out.label_starts.push(labels as u32);
-        out.labels.extend(self.graph.labels(first / 2).map(|label| label ^ (first & 1)));
+        let own = self.graph.labels(&arcs[first as usize / 2]);
+        out.labels.extend(own.iter().map(|&label| label ^ (first & 1)));
         out.labels[labels..].sort_unstable();
+        let name = 2 * out.ends.len() as u32;
         let mut half = first;
         loop {
             let arc = &arcs[half as usize / 2];
-            self.done[half as usize / 2] = true;
+            self.half_edge[half as usize] = name;
+            self.half_edge[half as usize ^ 1] = name + 1;
             // The last point is the next arc's first.
             if half & 1 == 0 {
                 out.points.extend_from_slice(&points[arc.first as usize..arc.last as usize]);
@@ -108,7 +106,7 @@ impl<'a> Numbering<'a> {
     fn rings(&mut self, out: &mut Topology) {
         let mut rings = Vec::new();
         for half in (0..2 * self.noder.arcs.len() as u32).step_by(2) {
-            if self.done[half as usize / 2] {
+            if self.half_edge[half as usize] != NONE {
                 continue;
             }
             let node = origin(&self.noder.arcs, half) as usize;
@@ -138,13 +136,15 @@ impl<'a> Numbering<'a> {
         }
     }
 
-    /// The least point of the ring of a half-arc; marks the ring as done.
+    /// The least point of the ring of a half-arc; marks the ring as seen.
     fn least_around(&mut self, first: u32) -> Point2 {
         let mut least = Point2::splat(f64::INFINITY);
         let mut half = Some(first);
         while let Some(at) = half {
             let arc = &self.noder.arcs[at as usize / 2];
-            self.done[at as usize / 2] = true;
+            // Any name will do until the ring has its own.
+            self.half_edge[at as usize] = 0;
+            self.half_edge[at as usize ^ 1] = 1;
             for &p in &self.noder.points[arc.first as usize..=arc.last as usize] {
                 if by_place(p, least) == Ordering::Less {
                     least = p;

@@ -2,7 +2,7 @@ use fgm_core::{Bounds2, Point2};
 use std::ops::Range;
 
 /// Segments in a piece at most. Longer pieces make fewer boxes, shorter ones tighter boxes.
-const LONGEST: usize = 12;
+const LONGEST: usize = 8;
 
 /// A run of segments that go one way in x and one way in y, so that its least rectangle, and that
 /// of every part of it, is given by its end points, and it does not meet itself.
