@@ -1,5 +1,7 @@
 use fgm_core::{ColorId, Point2, Role};
 
+use crate::inset::simplify;
+
 /// A line to be printed, before it has a colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
@@ -31,6 +33,25 @@ impl Path {
             points.extend(points.first().copied());
         }
         Piece { points, role, width, color }
+    }
+
+    /// The path without the vertices that lie within `tolerance` mm of a line past them; as it is
+    /// with a tolerance of 0.
+    ///
+    /// Offsets keep every vertex of the border they come from and add their own; a printer neither
+    /// needs nor keeps up with them. Lines joined along a border are left as they are: their
+    /// segments have [places](Path::turns) of their own. So is a loop no wider than the tolerance.
+    #[must_use]
+    pub fn simplified(mut self, tolerance: f64) -> Self {
+        if !(tolerance > 0.0 && self.points.len() >= 4 && self.turns.is_empty()) {
+            return self;
+        }
+        let mut points = Vec::with_capacity(self.points.len());
+        simplify::line(&self.points, self.closed, tolerance, &mut points);
+        if !self.closed || points.len() >= 3 {
+            self.points = points;
+        }
+        self
     }
 
     /// Length, mm, all the way round where closed.
@@ -65,5 +86,32 @@ impl Piece {
     /// Whether it ends where it begins.
     pub fn is_loop(&self) -> bool {
         self.points.len() > 2 && self.points.first() == self.points.last()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loops_and_lines_lose_what_is_straight_and_keep_their_length() {
+        let points: Vec<Point2> =
+            (0..400).map(|i| 20.0 * Point2::from_angle(f64::from(i) * 0.015)).collect();
+        for closed in [false, true] {
+            let path = Path {
+                points: points.clone(),
+                closed,
+                role: Role::InnerWall,
+                width: 0.4,
+                turn: 0,
+                turns: Vec::new(),
+            };
+            let simple = path.clone().simplified(0.005);
+            assert!(simple.points.len() < 200, "{}", simple.points.len());
+            assert!((simple.length() / path.length() - 1.0).abs() < 1e-3);
+            let off = |p: &Point2| (p.length() - 20.0).abs();
+            assert!(simple.points.iter().all(|p| off(p) < 0.0051));
+            assert_eq!(path.clone().simplified(0.0), path);
+        }
     }
 }

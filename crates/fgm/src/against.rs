@@ -1,12 +1,12 @@
 //! Strategy 2: every face filled against the gradient.
 
 use fgm_core::{Band, Polygon, bead};
-use fgm_toolpath::{AgainstOptions, Inset, Piece, against};
+use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against};
 use rayon::prelude::*;
 
 use crate::{
-    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, resolution::simplified,
-    stages::StageSeconds, stages::timed,
+    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, stages::StageSeconds,
+    stages::timed,
 };
 
 /// The pieces of a layer, before ordering.
@@ -36,8 +36,8 @@ pub(crate) fn pieces(
         let faces: Vec<_> = graded.faces().collect();
         let fill = |(band, face): &(Band, Polygon)| -> Vec<Piece> {
             let paths = against(std::slice::from_ref(face), &options, &job.inset);
-            let paths = simplified(paths, settings.contour.resolution);
-            paths.into_iter().map(|path| path.in_color(band.first)).collect()
+            let simple = |path: Path| path.simplified(settings.contour.resolution);
+            paths.into_iter().map(|path| simple(path).in_color(band.first)).collect()
         };
         let fills: Vec<_> = if job.split_faces {
             faces.par_iter().map(fill).collect()

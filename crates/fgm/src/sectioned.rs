@@ -7,8 +7,8 @@ use fgm_toolpath::{
 };
 
 use crate::{
-    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, resolution::simplified,
-    stages::StageSeconds, stages::timed,
+    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, stages::StageSeconds,
+    stages::timed,
 };
 
 /// The pieces of a layer, before ordering.
@@ -22,7 +22,8 @@ pub(crate) fn pieces(
     let neighbours = Neighbours::of(job, layer, seconds)?;
     timed(&mut seconds.toolpath, || {
         let paths = paths(job, layer, region, &neighbours);
-        let paths = simplified(paths, job.settings.contour.resolution);
+        let simple = |path: Path| path.simplified(job.settings.contour.resolution);
+        let paths: Vec<Path> = paths.into_iter().map(simple).collect();
         let mut pieces = Vec::new();
         // The layer's index makes a zipper's teeth alternate upwards, too.
         let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
