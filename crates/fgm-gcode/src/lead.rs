@@ -11,7 +11,7 @@ use crate::{Machine, MachineKind, MotionQueue, Step};
 /// a [`Motion::Command`] where the machine has to be *told*: before the first motion that ends
 /// later than the dead volume before the boundary, splitting that motion where the command falls
 /// due inside it. Everything extruded counts, purge towers too, across paths and layers; a bead's
-/// volume is its length times [`bead::area`] times its role's flow. The place is exact to the
+/// volume is its length times [`bead::area`](fgm_core::bead::area) times its role's flow. The place is exact to the
 /// volume of 0.0001 mm of bead.
 ///
 /// Commands keep their order. One that would fall due before the print begins comes first of all.

@@ -15,6 +15,13 @@ pub struct State {
     pub flow: f64,
 }
 
+impl State {
+    /// A mixture, with nothing else to tell.
+    pub fn plain(mixture: Mixture) -> Self {
+        Self { mixture, tool: None, temperature: None, flow: 1.0 }
+    }
+}
+
 impl Machine {
     /// The states for the colours of a palette, in its order.
     ///
@@ -58,7 +65,7 @@ impl Machine {
                 machine: self.name.clone(),
             });
         }
-        let plain = State { mixture: *mixture, tool: None, temperature: None, flow: 1.0 };
+        let plain = State::plain(*mixture);
         match self.kind {
             MachineKind::Mixing => {
                 let decimals = self.dialect.name.ratio_decimals();
