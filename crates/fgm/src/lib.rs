@@ -51,18 +51,21 @@ mod progress;
 mod report;
 mod samples;
 mod sectioned;
+mod sections;
 mod settings;
 mod slicer;
 mod stages;
 mod stream;
 
 pub use choice::{ChoiceError, ColorCount, Strategy, Zipper};
+pub use colors::{material_colors, usual_colors};
 pub use error::SliceError;
 pub use inspect::{Inspection, MaterialRange, inspect};
 pub use layers::{Layer, Layers};
 pub use machine::machine;
 pub use progress::{Progress, Quiet};
 pub use report::{MaterialUse, Report};
+pub use sections::Sections;
 pub use settings::{
     AgainstSettings, ContourSettings, InfillSettings, LayerSettings, LeadSettings, PaletteSettings,
     PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings,
