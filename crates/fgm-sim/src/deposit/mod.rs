@@ -17,6 +17,8 @@ pub use thermal::Thermal;
 
 /// A nozzle whose temperature changes is followed in steps of this, °C.
 const STEP: f64 = 0.5;
+/// The temperature of foam changes by no more than this along a piece, °C.
+const SPAN: f64 = 1.0;
 /// Pieces of less than this are not split off, mm³: rounding of E is larger.
 const LEAST: f64 = 1e-7;
 
@@ -151,30 +153,24 @@ impl Deposit {
     ) {
         let mut share = first;
         loop {
-            let left = (last - share) * bead.fed;
-            let window = &self.nozzle(bead.head).window;
-            let (until, start) = (window.until_break(), window.at(0.0));
-            // Of foam the volume that lies there counts, which is more than what is fed.
-            let flow = foaming.map_or(1.0, |f| flow(f, window, until.min(left)));
-            let breaks = until < (left / flow) - LEAST;
-            let volume = if breaks { until.max(0.0) } else { left / flow };
-            let end = if window.is_steady() { start } else { window.at(volume) };
-            let to = if breaks { share + volume * flow / bead.fed } else { last };
-            let nozzle = self.nozzle(bead.head);
-            if breaks {
-                nozzle.window.extrude_to_break();
-            } else {
-                nozzle.window.extrude(volume);
+            let window = &mut self.nozzle(bead.head).window;
+            let start = window.at(0.0);
+            let Step { volume, flow, end } = Step::next(window, (last - share) * bead.fed, foaming);
+            let finish = if window.is_steady() { start } else { window.at(volume) };
+            match end {
+                End::Bead | End::Part => window.extrude(volume),
+                End::Course => window.extrude_to_break(),
             }
-            if !breaks || volume > LEAST {
-                let celsius = foaming.map(|_| 0.5 * (start[0] + end[0]));
-                let deposited = self.mixtures(&start, &end, bead, foaming);
-                let part = |s: f64| bead.from + (bead.to - bead.from) * s;
+            let done = end == End::Bead;
+            let to = if done { last } else { share + volume * flow / bead.fed };
+            if done || volume > LEAST {
+                let deposited = self.mixtures(&start, &finish, bead, foaming);
+                let place = |s: f64| bead.from + (bead.to - bead.from) * s;
                 emit(&Piece {
                     line: bead.line,
                     layer: bead.layer,
-                    from: if share == 0.0 { bead.from } else { part(share) },
-                    to: if to == 1.0 { bead.to } else { part(to) },
+                    from: if share == 0.0 { bead.from } else { place(share) },
+                    to: if to == 1.0 { bead.to } else { place(to) },
                     volume,
                     fed: volume * flow,
                     height: bead.height,
@@ -183,11 +179,11 @@ impl Deposit {
                     head: bead.head,
                     commanded: bead.mixture,
                     deposited,
-                    celsius,
+                    celsius: foaming.map(|_| 0.5 * (start[0] + finish[0])),
                 });
                 share = to;
             }
-            if !breaks {
+            if done {
                 return;
             }
         }
@@ -225,10 +221,61 @@ fn celsius_values(celsius: f64) -> Values {
     values
 }
 
-/// The factor from what lies there to what is fed, over the next `volume` mm³.
-fn flow(foaming: &Foaming, window: &Window, volume: f64) -> f64 {
-    let middle = if window.is_steady() { 0.0 } else { 0.5 * volume.max(0.0) };
-    let celsius =
-        window.at(middle)[0].clamp(foaming.low.min(foaming.high), foaming.low.max(foaming.high));
-    foaming.flow_at(celsius).max(0.01)
+/// How far a piece goes.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    /// What lies there, mm³.
+    volume: f64,
+    /// Filament fed for each mm³ of it.
+    flow: f64,
+    end: End,
+}
+
+/// Why a piece ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum End {
+    /// The bead does.
+    Bead,
+    /// The composition takes another course.
+    Course,
+    /// The foam's temperature has changed by as much as a piece may have.
+    Part,
+}
+
+impl Step {
+    /// The next piece of a bead of which `left` mm³ of filament are to be fed.
+    #[inline]
+    fn next(window: &Window, left: f64, foaming: Option<&Foaming>) -> Self {
+        let course = window.until_break();
+        let Some(foaming) = foaming else {
+            return Self::within(left, 1.0, course, f64::INFINITY);
+        };
+        if window.is_steady() {
+            let flow = flow(foaming, window, 0.0);
+            return Self::within(left, flow, course, f64::INFINITY);
+        }
+        // So short that the flow in the middle stands for all of it.
+        let near = course.min(1.0);
+        let slope = (window.at(near)[0] - window.at(0.0)[0]) / near;
+        let part = (SPAN / slope.abs()).max(100.0 * LEAST);
+        let most = course.min(part);
+        let about = left / flow(foaming, window, 0.0);
+        Self::within(left, flow(foaming, window, 0.5 * most.min(about)), course, part)
+    }
+
+    fn within(left: f64, flow: f64, course: f64, part: f64) -> Self {
+        let whole = left / flow;
+        let (volume, end) = match course.min(part) {
+            most if most >= whole - LEAST => (whole, End::Bead),
+            _ if course <= part => (course.max(0.0), End::Course),
+            _ => (part, End::Part),
+        };
+        Self { volume, flow, end }
+    }
+}
+
+/// The factor from what lies there to what is fed, after `ahead` mm³ more.
+fn flow(foaming: &Foaming, window: &Window, ahead: f64) -> f64 {
+    let (low, high) = (foaming.low.min(foaming.high), foaming.low.max(foaming.high));
+    foaming.flow_at(window.at(ahead)[0].clamp(low, high)).max(0.01)
 }
