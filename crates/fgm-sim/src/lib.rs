@@ -57,3 +57,8 @@ pub use raster::{Coverage, LayerFigures};
 pub use replay::{Follower, Replay, ReplayOptions};
 pub use totals::{Figures, Totals};
 pub use transition::Transition;
+
+/// The README's example runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
