@@ -20,13 +20,17 @@ pub(crate) struct Piece {
     heading: u8,
 }
 
+/// Bits of a heading; the one after each is for the opposite way.
+const RIGHT: u8 = 1;
+const UP: u8 = 4;
+
 /// A bit each for going right, left, up and down.
 #[inline]
 fn heading(a: Point2, b: Point2) -> u8 {
-    u8::from(a.x < b.x)
-        | u8::from(a.x > b.x) << 1
-        | u8::from(a.y < b.y) << 2
-        | u8::from(a.y > b.y) << 3
+    u8::from(a.x < b.x) * RIGHT
+        | u8::from(a.x > b.x) * (RIGHT << 1)
+        | u8::from(a.y < b.y) * UP
+        | u8::from(a.y > b.y) * (UP << 1)
 }
 
 /// Whether these are opposite ways.
@@ -97,15 +101,21 @@ impl Piece {
     /// The segments whose rectangles reach into `window`: neighbours all, as the piece is monotone.
     #[inline]
     pub(crate) fn clip(&self, points: &[Point2], window: &Bounds2) -> Range<usize> {
-        let Range { mut start, mut end } = self.segments();
-        let reaches = |i: usize| overlap(&around(points[i], points[i + 1]), window);
-        while start < end && !reaches(start) {
-            start += 1;
+        // Counted, not searched: where each search would end cannot be predicted.
+        let (mut below, mut above) = ([0; 2], [0; 2]);
+        for p in &points[self.first as usize..=self.last as usize] {
+            below[0] += usize::from(p.x < window.min.x);
+            below[1] += usize::from(p.y < window.min.y);
+            above[0] += usize::from(p.x > window.max.x);
+            above[1] += usize::from(p.y > window.max.y);
         }
-        while start < end && !reaches(end - 1) {
-            end -= 1;
-        }
-        start..end
+        let first = |forth: bool, axis: usize| if forth { below[axis] } else { above[axis] };
+        let last = |forth: bool, axis: usize| if forth { above[axis] } else { below[axis] };
+        let (right, up) = (self.heading & RIGHT != 0, self.heading & UP != 0);
+        // A segment is beside the window when both its ends are, on one side.
+        let start = first(right, 0).max(first(up, 1)).saturating_sub(1);
+        let end = last(right, 0).max(last(up, 1)).saturating_sub(1);
+        self.first as usize + start..self.last as usize - end
     }
 }
 
