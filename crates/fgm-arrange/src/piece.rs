@@ -27,10 +27,10 @@ const UP: u8 = 4;
 /// A bit each for going right, left, up and down.
 #[inline]
 fn heading(a: Point2, b: Point2) -> u8 {
-    u8::from(a.x < b.x) * RIGHT
-        | u8::from(a.x > b.x) * (RIGHT << 1)
-        | u8::from(a.y < b.y) * UP
-        | u8::from(a.y > b.y) * (UP << 1)
+    let bit = |goes: bool, bit: u8| u8::from(goes) * bit;
+    let (right, left) = (bit(a.x < b.x, RIGHT), bit(a.x > b.x, RIGHT << 1));
+    let (up, down) = (bit(a.y < b.y, UP), bit(a.y > b.y, UP << 1));
+    right | left | up | down
 }
 
 /// Whether these are opposite ways.
@@ -165,6 +165,24 @@ mod tests {
                 at = piece.last;
             }
             prop_assert_eq!(at as usize, points.len() - 1);
+        }
+
+        #[test]
+        fn clipping_leaves_the_segments_that_reach_into_the_window(
+            line in prop::collection::vec((-5..5i32, -5..5i32), 2..30),
+            corner in (-6..6i32, -6..6i32),
+            size in (0..6i32, 0..6i32),
+        ) {
+            let point = |(x, y): (i32, i32)| Point2::new(f64::from(x), f64::from(y));
+            let points: Vec<_> = line.iter().copied().map(point).collect();
+            let window = Bounds2::new(point(corner), point(corner) + point(size));
+            let mut pieces = Vec::new();
+            split(&points, 0, points.len() - 1, 0, &mut pieces);
+            for piece in &pieces {
+                let reaches = |&i: &usize| overlap(&around(points[i], points[i + 1]), &window);
+                let plain: Vec<_> = piece.segments().filter(reaches).collect();
+                prop_assert_eq!(piece.clip(&points, &window).collect::<Vec<_>>(), plain);
+            }
         }
     }
 }
