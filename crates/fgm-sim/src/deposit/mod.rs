@@ -19,8 +19,9 @@ pub use thermal::Thermal;
 const STEP: f64 = 0.5;
 /// The temperature of foam changes by no more than this along a piece, °C.
 const SPAN: f64 = 1.0;
-/// Pieces of less than this are not split off, mm³: rounding of E is larger.
-const LEAST: f64 = 1e-7;
+/// Pieces of less than this are not split off, mm³: a few times what E is rounded to, and a
+/// thousandth of a mm of a common bead.
+const LEAST: f64 = 1e-4;
 
 /// Lays beads down through a [`Model`]: takes [`Event`]s, gives [`Piece`]s.
 ///
@@ -152,37 +153,45 @@ impl Deposit {
         emit: &mut impl FnMut(&Piece),
     ) {
         let mut share = first;
+        // Too little for a piece of its own: what lies there, and what is fed for it.
+        let mut carried = (0.0, 0.0);
         loop {
             let window = &mut self.nozzle(bead.head).window;
             let start = window.at(0.0);
-            let Step { volume, flow, end } = Step::next(window, (last - share) * bead.fed, foaming);
+            let left = ((last - share) * bead.fed - carried.1).max(0.0);
+            let Step { volume, flow, end } = Step::next(window, left, foaming);
+            if end == End::Course && volume < LEAST {
+                window.extrude_to_break();
+                carried = (carried.0 + volume, carried.1 + volume * flow);
+                continue;
+            }
             let finish = if window.is_steady() { start } else { window.at(volume) };
             match end {
                 End::Bead | End::Part => window.extrude(volume),
                 End::Course => window.extrude_to_break(),
             }
             let done = end == End::Bead;
-            let to = if done { last } else { share + volume * flow / bead.fed };
-            if done || volume > LEAST {
-                let deposited = self.mixtures(&start, &finish, bead, foaming);
-                let place = |s: f64| bead.from + (bead.to - bead.from) * s;
-                emit(&Piece {
-                    line: bead.line,
-                    layer: bead.layer,
-                    from: if share == 0.0 { bead.from } else { place(share) },
-                    to: if to == 1.0 { bead.to } else { place(to) },
-                    volume,
-                    fed: volume * flow,
-                    height: bead.height,
-                    width: bead.width,
-                    role: bead.role,
-                    head: bead.head,
-                    commanded: bead.mixture,
-                    deposited,
-                    celsius: foaming.map(|_| 0.5 * (start[0] + finish[0])),
-                });
-                share = to;
-            }
+            let (volume, fed) = (carried.0 + volume, carried.1 + volume * flow);
+            carried = (0.0, 0.0);
+            let to = if done { last } else { share + fed / bead.fed };
+            let deposited = self.mixtures(&start, &finish, bead, foaming);
+            let place = |s: f64| bead.from + (bead.to - bead.from) * s;
+            emit(&Piece {
+                line: bead.line,
+                layer: bead.layer,
+                from: if share == 0.0 { bead.from } else { place(share) },
+                to: if to == 1.0 { bead.to } else { place(to) },
+                volume,
+                fed,
+                height: bead.height,
+                width: bead.width,
+                role: bead.role,
+                head: bead.head,
+                commanded: bead.mixture,
+                deposited,
+                celsius: foaming.map(|_| 0.5 * (start[0] + finish[0])),
+            });
+            share = to;
             if done {
                 return;
             }
@@ -257,7 +266,7 @@ impl Step {
         // So short that the flow in the middle stands for all of it.
         let near = course.min(1.0);
         let slope = (window.at(near)[0] - window.at(0.0)[0]) / near;
-        let part = (SPAN / slope.abs()).max(100.0 * LEAST);
+        let part = (SPAN / slope.abs()).max(2.0 * LEAST);
         let most = course.min(part);
         let about = left / flow(foaming, window, 0.0);
         Self::within(left, flow(foaming, window, 0.5 * most.min(about)), course, part)
