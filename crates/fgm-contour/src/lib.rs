@@ -59,6 +59,7 @@
 mod cases;
 mod contact;
 mod contour;
+mod crossings;
 mod error;
 mod graph;
 mod grid;
@@ -77,6 +78,7 @@ mod simplify;
 mod sweep;
 
 pub use contour::{Contourer, LevelLines, isolines, outline};
+pub use crossings::{Crossing, Crossings};
 pub use error::ContourError;
 pub use grid::Grid;
 pub use mesh::{DEFAULT_GAP, Issue, MeshIssues, MeshSlicer, Section, SectionWarning};

@@ -14,6 +14,16 @@ pub enum Strategy {
     Against,
 }
 
+/// What paths are sectioned by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SectionBy {
+    /// The material itself: boundaries are found along each path.
+    #[default]
+    Field,
+    /// The faces of the layer, cut out by traced boundaries.
+    Faces,
+}
+
 /// How many colours the palette has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColorCount {
@@ -62,6 +72,17 @@ impl FromStr for Strategy {
     }
 }
 
+impl FromStr for SectionBy {
+    type Err = ChoiceError;
+    fn from_str(text: &str) -> Result<Self, ChoiceError> {
+        match text.trim() {
+            "field" => Ok(Self::Field),
+            "faces" => Ok(Self::Faces),
+            other => not(other, "what to section by: field or faces"),
+        }
+    }
+}
+
 impl FromStr for ColorCount {
     type Err = ChoiceError;
     fn from_str(text: &str) -> Result<Self, ChoiceError> {
@@ -97,6 +118,15 @@ impl fmt::Display for Strategy {
         f.write_str(match self {
             Self::Sectioned => "sectioned",
             Self::Against => "against",
+        })
+    }
+}
+
+impl fmt::Display for SectionBy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Field => "field",
+            Self::Faces => "faces",
         })
     }
 }
@@ -146,9 +176,15 @@ macro_rules! as_text_or_number {
         }
     )*};
 }
-as_text_or_number!(Strategy, ColorCount, Zipper);
+as_text_or_number!(Strategy, SectionBy, ColorCount, Zipper);
 
 impl Serialize for Strategy {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        s.collect_str(self)
+    }
+}
+
+impl Serialize for SectionBy {
     fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
         s.collect_str(self)
     }
@@ -180,6 +216,7 @@ mod tests {
     fn words_and_numbers_are_read() {
         assert_eq!("2".parse(), Ok(Strategy::Against));
         assert_eq!("sectioned".parse(), Ok(Strategy::Sectioned));
+        assert_eq!("faces".parse(), Ok(SectionBy::Faces));
         assert_eq!("auto".parse(), Ok(ColorCount::Auto));
         assert_eq!("12".parse(), Ok(ColorCount::Count(12)));
         assert_eq!("15mm".parse(), Ok(Zipper::Length(15.0)));

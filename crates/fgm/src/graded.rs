@@ -1,11 +1,10 @@
 use fgm_arrange::{ArrangeOptions, Arrangement, Chain, FaceId};
 use fgm_contour::{ContourOptions, LevelLines, isolines};
-use fgm_core::{
-    Band, Bounds2, Interval, MaterialField, PlanarField, Point2, Polygon, Polyline, Sectioner, Span,
-};
-use fgm_palette::{Boundary, Palette};
+use fgm_core::{Band, Bounds2, MaterialField, Point2, Polygon, Polyline, Sectioner, Span};
+use fgm_palette::Palette;
 
 use crate::{
+    boundaries::{BoundaryField, boundary_fields},
     error::SliceError,
     job::Job,
     layers::Layer,
@@ -85,7 +84,7 @@ const CHECK_LEAST: usize = 16;
 ///
 /// The isolines pass over what is no number, since a design need not say what lies outside it;
 /// inside it, such a place would be printed in a neighbour's colour.
-fn check_material(
+pub(crate) fn check_material(
     region: &[Polygon],
     z: f64,
     material: &dyn MaterialField,
@@ -134,38 +133,10 @@ fn palette_boundaries(
             lines.extend(level.lines.into_iter().map(|Polyline { points }| (false, points)));
         }
     };
-    for index in 0..palette.materials() {
-        let levels = palette.levels(index);
-        if !levels.is_empty() {
-            let fraction = material.fraction(index).at_z(z);
-            add(isolines(fraction.as_ref(), &window, levels, options)?);
-        }
-    }
-    for boundary in palette.boundaries() {
-        if let Boundary::Difference { a, b, by } = *boundary {
-            let difference =
-                Difference { a: material.fraction(a).at_z(z), b: material.fraction(b).at_z(z) };
-            add(isolines(&difference, &window, &[by], options)?);
-        }
+    for BoundaryField { field, levels } in boundary_fields(material, palette, z) {
+        add(isolines(field.as_ref(), &window, &levels, options)?);
     }
     Ok(lines)
-}
-
-/// How much more there is of one material than of another.
-struct Difference<'a> {
-    a: Box<dyn PlanarField + 'a>,
-    b: Box<dyn PlanarField + 'a>,
-}
-
-impl PlanarField for Difference<'_> {
-    fn eval(&self, p: Point2) -> f64 {
-        self.a.eval(p) - self.b.eval(p)
-    }
-
-    fn bounds(&self, cell: &Bounds2) -> Interval {
-        let (a, b) = (self.a.bounds(cell), self.b.bounds(cell));
-        Interval::new(a.lo - b.hi, a.hi - b.lo)
-    }
 }
 
 fn arrange(

@@ -34,10 +34,12 @@
 //! ```
 
 mod against;
+mod boundaries;
 mod choice;
 mod colors;
 mod error;
 mod extent;
+mod field_sections;
 mod graded;
 mod head;
 mod inspect;
@@ -57,7 +59,7 @@ mod slicer;
 mod stages;
 mod stream;
 
-pub use choice::{ChoiceError, ColorCount, Strategy, Zipper};
+pub use choice::{ChoiceError, ColorCount, SectionBy, Strategy, Zipper};
 pub use colors::{material_colors, usual_colors};
 pub use error::SliceError;
 pub use inspect::{Inspection, MaterialRange, inspect};

@@ -19,7 +19,8 @@ pub struct Report {
     pub layers: usize,
     /// Colours of the palette.
     pub colors: usize,
-    /// Faces of one colour, over all layers.
+    /// Faces of one colour, over all layers. Where paths are sectioned straight from the field no
+    /// faces are made: then the colours of each layer, which are the fewest faces it can have.
     pub faces: usize,
     /// Pieces of one colour.
     pub pieces: usize,

@@ -1,5 +1,8 @@
-//! Strategy 1: ordinary toolpaths, sectioned by the faces.
+//! Strategy 1: ordinary toolpaths, sectioned by colour.
 
+use std::collections::BTreeSet;
+
+use fgm_contour::ContourOptions;
 use fgm_core::{Polygon, Role};
 use fgm_toolpath::{
     InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, section, skins_with,
@@ -7,8 +10,13 @@ use fgm_toolpath::{
 };
 
 use crate::{
-    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, stages::StageSeconds,
-    stages::timed,
+    choice::SectionBy,
+    error::SliceError,
+    field_sections::FieldSections,
+    graded::{GradedLayer, check_material},
+    job::Job,
+    layers::Layer,
+    stages::{StageSeconds, timed},
 };
 
 /// The pieces of a layer, before ordering.
@@ -18,18 +26,35 @@ pub(crate) fn pieces(
     region: &[Polygon],
     seconds: &mut StageSeconds,
 ) -> Result<(Vec<Piece>, usize), SliceError> {
-    let graded = GradedLayer::new(job, layer, region, seconds)?;
     let neighbours = Neighbours::of(job, layer, seconds)?;
-    timed(&mut seconds.toolpath, || {
-        let paths = paths(job, layer, region, &neighbours);
+    let paths = timed(&mut seconds.toolpath, || {
         let simple = |path: Path| path.simplified(job.settings.contour.resolution);
-        let paths: Vec<Path> = paths.into_iter().map(simple).collect();
-        let mut pieces = Vec::new();
-        // The layer's index makes a zipper's teeth alternate upwards, too.
-        let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
-        section(&paths, &graded, &options, &mut pieces);
-        Ok((pieces, graded.count()))
-    })
+        let paths = paths(job, layer, region, &neighbours).into_iter();
+        paths.map(simple).collect::<Vec<_>>()
+    });
+    let mut pieces = Vec::new();
+    // The layer's index makes a zipper's teeth alternate upwards, too.
+    let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
+    match job.settings.section.by {
+        SectionBy::Field => {
+            let material = job.design.fractions.as_ref();
+            timed(&mut seconds.contour, || check_material(region, layer.cut, material))?;
+            timed(&mut seconds.toolpath, || {
+                let ContourOptions { cell, root_tolerance, .. } = job.isolines;
+                let sections =
+                    FieldSections::new(material, job.palette, layer.cut, cell, root_tolerance);
+                section(&paths, &sections, &options, &mut pieces);
+                sections.finish()
+            })?;
+            let colors: BTreeSet<_> = pieces.iter().map(|piece| piece.color).collect();
+            Ok((pieces, colors.len()))
+        }
+        SectionBy::Faces => {
+            let graded = GradedLayer::new(job, layer, region, seconds)?;
+            timed(&mut seconds.toolpath, || section(&paths, &graded, &options, &mut pieces));
+            Ok((pieces, graded.count()))
+        }
+    }
 }
 
 /// The outlines that skins look at; none past the part's ends.

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::choice::{ColorCount, Strategy, Zipper};
+use crate::choice::{ColorCount, SectionBy, Strategy, Zipper};
 use fgm_contour::ContourOptions;
 use fgm_toolpath::{FaceFill, Pattern, SkirtOptions};
 
@@ -110,6 +110,11 @@ settings! {
         auto_short_share: f64 = 0.1, "0.1", "share";
         #[doc = "Length below which a piece prints badly."]
         short_piece: f64 = 5.0, "5", "mm";
+    }
+    #[doc = "Cutting of paths by colour, strategy sectioned."]
+    section: SectionSettings {
+        #[doc = "What paths are cut by: the field itself, or the faces its traced boundaries make."]
+        by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
     }
     #[doc = "Walls, strategy sectioned."]
     walls: WallSettings {

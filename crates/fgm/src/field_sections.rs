@@ -1,0 +1,92 @@
+//! Sections of paths straight from the material, without faces.
+
+use std::sync::OnceLock;
+
+use fgm_contour::{Crossing, Crossings};
+use fgm_core::{Band, MaterialError, MaterialField, Point2, Sectioner, Span, point_at};
+use fgm_palette::Palette;
+
+use crate::boundaries::{BoundaryField, boundary_fields};
+
+/// Cuts paths where they cross the palette's boundaries, found along the path by root finding.
+///
+/// The same spans as those by faces, whose borders are these boundaries traced and simplified; but
+/// no contour is traced and nothing arranged, and the ends lie on the true boundary.
+pub(crate) struct FieldSections<'a> {
+    material: &'a dyn MaterialField,
+    palette: &'a Palette,
+    z: f64,
+    boundaries: Vec<BoundaryField<'a>>,
+    step: f64,
+    tolerance: f64,
+    /// The first place without a mixture.
+    failure: OnceLock<MaterialError>,
+}
+
+impl<'a> FieldSections<'a> {
+    /// Sections at height `z`: the field is looked at every `step` mm, and boundaries are found to
+    /// `tolerance` mm.
+    pub(crate) fn new(
+        material: &'a dyn MaterialField,
+        palette: &'a Palette,
+        z: f64,
+        step: f64,
+        tolerance: f64,
+    ) -> Self {
+        let boundaries = boundary_fields(material, palette, z);
+        Self { material, palette, z, boundaries, step, tolerance, failure: OnceLock::new() }
+    }
+
+    /// Whether all that was sectioned has a mixture.
+    pub(crate) fn finish(self) -> Result<(), MaterialError> {
+        self.failure.into_inner().map_or(Ok(()), Err)
+    }
+
+    /// The places where a path crosses any boundary, in order.
+    fn cuts(&self, path: &[Point2]) -> Vec<f64> {
+        let mut crossings = Crossings::new(self.step, self.tolerance);
+        let (mut found, mut cuts): (Vec<Crossing>, Vec<f64>) = Default::default();
+        for BoundaryField { field, levels } in &self.boundaries {
+            crossings.find(field.as_ref(), path, levels, &mut found);
+            cuts.extend(found.iter().map(|crossing| crossing.at));
+        }
+        if self.boundaries.len() > 1 {
+            cuts.sort_by(f64::total_cmp);
+        }
+        cuts
+    }
+
+    /// The band in the middle of a stretch.
+    fn band(&self, path: &[Point2], from: f64, to: f64) -> Option<Band> {
+        let middle = point_at(path, 0.5 * (from + to)).extend(self.z);
+        match self.material.mixture(middle) {
+            Ok(mixture) => Some(self.palette.band(&mixture)),
+            Err(error) => {
+                self.failure.get_or_init(|| error);
+                None
+            }
+        }
+    }
+}
+
+impl Sectioner<Band> for FieldSections<'_> {
+    fn section(&self, path: &[Point2], spans: &mut Vec<Span<Band>>) {
+        spans.clear();
+        if path.len() < 2 {
+            return;
+        }
+        let end = (path.len() - 1) as f64;
+        let mut from = 0.0;
+        for to in self.cuts(path).into_iter().chain([end]) {
+            if to <= from && spans.last().is_some() {
+                continue;
+            }
+            let Some(band) = self.band(path, from, to) else { continue };
+            match spans.last_mut() {
+                Some(last) if last.label == band => last.to = to,
+                _ => spans.push(Span { from, to, label: band }),
+            }
+            from = to;
+        }
+    }
+}
