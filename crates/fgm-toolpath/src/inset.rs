@@ -82,10 +82,15 @@ impl Inset for ClipperInset {
 
     fn nested(&self, polygon: &Polygon, clear: f64, distances: &[f64]) -> Option<Vec<Polygon>> {
         let polygon = simplify::polygon(polygon, self.simplify)?;
+        let mut checked = None;
         if clear > 0.0 {
-            local::offset(std::slice::from_ref(&polygon), clear)?;
+            checked = local::offset(std::slice::from_ref(&polygon), clear)?.pop();
         }
-        distances.iter().map(|&d| local::moved(&polygon, d)).collect()
+        let mut at = |distance: f64| match checked.take_if(|_| distance == clear) {
+            Some(inner) => Some(inner),
+            None => local::moved(&polygon, distance),
+        };
+        distances.iter().map(|&distance| at(distance)).collect()
     }
 }
 
