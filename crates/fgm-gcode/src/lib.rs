@@ -9,10 +9,10 @@
 //!
 //! | group | items |
 //! |---|---|
-//! | machines | [`Machine`], [`MachineKind`], [`Bed`], [`DialectOptions`], [`LeadOptions`], [`TransitionOptions`], [`Temperatures`], [`Foaming`], [`Speeds`], [`MotionLimits`], [`Retraction`], [`Fan`], [`ToolChanging`], [`Templates`], [`VARIABLES`] |
+//! | machines | [`Machine`], [`MachineKind`], [`Bed`], [`DialectOptions`], [`Auger`], [`LeadOptions`], [`TransitionOptions`], [`Temperatures`], [`Foaming`], [`Speeds`], [`MotionLimits`], [`Retraction`], [`Fan`], [`ToolChanging`], [`Templates`], [`VARIABLES`] |
 //! | colours | [`State`], [`Machine::states`], [`safe_ratios`] |
 //! | look-ahead | [`Lead`], [`Led`], [`MotionQueue`], [`Step`] |
-//! | dialects | [`Dialect`], [`Change`], [`Move`], [`Text`], [`Fixed`]; [`MarlinMixing`], [`MarlinDirect`], [`RepRap`], [`Kalico`], [`Repetier`], [`ToolChange`], [`PrusaXl`], [`Foam`] |
+//! | dialects | [`Dialect`], [`Change`], [`Move`], [`Text`], [`Fixed`]; [`MarlinMixing`], [`MarlinTools`], [`MarlinDirect`], [`RepRap`], [`Kalico`], [`Repetier`], [`ToolChange`], [`PrusaXl`], [`Foam`] |
 //! | writing | [`Writer`], [`WriterOptions`], [`Summary`], [`TimeEstimate`] |
 //! | reading | [`Reader`], [`lines`], [`Line`], [`Command`], [`Code`], [`Word`] |
 //! | faults | [`GcodeError`], `MachineError` |
@@ -85,8 +85,8 @@ mod time;
 mod writer;
 
 pub use dialect::{
-    Change, Dialect, Foam, Kalico, MarlinDirect, MarlinMixing, Motors, Move, PrusaXl, RepRap,
-    Repetier, ToolChange,
+    Change, Dialect, Foam, Kalico, MarlinDirect, MarlinMixing, MarlinTools, Motors, Move, PrusaXl,
+    RepRap, Repetier, ToolChange,
 };
 pub use error::GcodeError;
 pub use fixed::Fixed;
@@ -94,7 +94,7 @@ pub use lead::{Lead, Led};
 #[cfg(feature = "serde")]
 pub use machine::MachineError;
 pub use machine::{
-    Bed, DialectName, DialectOptions, Fan, Foaming, LeadOptions, Machine, MachineKind,
+    Auger, Bed, DialectName, DialectOptions, Fan, Foaming, LeadOptions, Machine, MachineKind,
     MotionLimits, Retraction, Speeds, Temperatures, Templates, ToolChanging, TransitionOptions,
 };
 pub use queue::MotionQueue;

@@ -136,7 +136,8 @@ fn the_reader_agrees_with_the_summary_on_every_machine() {
         let (text, summary) = write(&machine, &options(&machine), lead.over(two_layers())).unwrap();
         let seen = totals(&text);
         let near = |a: f64, b: f64| (a - b).abs() <= 1e-5 * b.abs().max(1.0);
-        assert!(near(seen.filament * AREA, summary.fed_mm3), "{name}: {seen:?} {summary:?}");
+        let seen_mm3 = seen.filament * AREA / machine.feed_factor();
+        assert!(near(seen_mm3, summary.fed_mm3), "{name}: {seen:?} {summary:?}");
         let in_all: f64 = summary.filament_mm3.iter().sum();
         assert!(near(in_all, summary.fed_mm3), "{name}");
         assert!((seen.travel - summary.travel_mm).abs() < 0.05, "{name}: {seen:?} {summary:?}");
@@ -373,4 +374,55 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn a_firmware_that_scales_the_weights_gets_its_filament_all_the_same() {
+    let mut machine = machine("snmf-4");
+    let print = steps(&[layer(0), travel(0.0, 0.0), color(0), line(20.0, 0.0), line(40.0, 0.0)]);
+    let filament = |machine: &Machine| {
+        let (text, summary) = write(machine, &options(machine), print.clone()).unwrap();
+        (totals(&text).filament, summary.filament_mm3)
+    };
+    assert!(machine.dialect.normalises);
+    let (scaled, fed) = filament(&machine);
+    machine.dialect.normalises = false;
+    let (plain, same) = filament(&machine);
+    assert!((scaled - 2.0 * plain).abs() < 1e-4, "{scaled} {plain}");
+    assert_eq!(fed, same);
+}
+
+#[test]
+fn an_auger_with_a_speed_of_its_own_is_told_it() {
+    let mut machine = machine("generic-mixing");
+    machine.auger.flow = Some(2.0);
+    machine.auger.command = "M3 S{rpm}".into();
+    machine.auger.stop = "M5".into();
+    machine.speed.first_layer = 30.0;
+    machine.speed.inner_wall = 30.0;
+    let wide = Motion::Extrude { to: Point2::new(60.0, 0.0), width: 0.8, role: Role::InnerWall };
+    let print = [layer(0), travel(0.0, 0.0), line(20.0, 0.0), line(40.0, 0.0), wide];
+    let (text, _) = write(&machine, &options(&machine), steps(&print)).unwrap();
+    let told: Vec<&str> =
+        text.lines().filter(|l| l.starts_with("M3 ") || l.starts_with("M5")).collect();
+    // 60 Q / Q0, with Q the section times 30 mm/s.
+    let turns = |width: f64| (60.0 * bead::area(width, 0.2) * 30.0 / 2.0).round();
+    assert_eq!(told, [format!("M3 S{}", turns(0.4)), format!("M3 S{}", turns(0.8)), "M5".into()]);
+}
+
+#[test]
+fn a_state_between_colours_is_told_and_counted() {
+    let machine = machine("generic-mixing");
+    let between = State::plain(Mixture::from_weights(&[0.4, 0.6]).unwrap());
+    let mut print = steps(&[layer(0), travel(0.0, 0.0), color(0), line(20.0, 0.0)]);
+    print.push(Step::Tell { color: ColorId(1), state: between });
+    print.extend(steps(&[line(40.0, 0.0)]));
+    print.push(Step::Motion(Motion::Command(ColorId(1))));
+    print.extend(steps(&[line(60.0, 0.0)]));
+    let (text, summary) = write(&machine, &options(&machine), print).unwrap();
+    assert!(text.contains(";COLOR:1 0.4 0.6\nM163 S0 P0.4\nM163 S1 P0.6\nM164 S0\n"), "{text}");
+    assert_eq!(summary.state_changes, 2);
+    let third = 20.0 * bead::area(0.4, 0.2);
+    let shares = [0.875, 0.4, 0.625].iter().sum::<f64>();
+    assert!((summary.filament_mm3[0] - third * shares).abs() < 1e-9, "{summary:?}");
 }

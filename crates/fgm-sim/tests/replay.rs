@@ -166,7 +166,9 @@ fn mixtures_of_every_dialect() {
         ("prusa-mk4s-lw-pla", "M104 S190\nM109 S225", "h0 0.00:1.00"),
     ] {
         let text = show(Some(machine), &format!("{gcode}{print}"));
-        assert!(text.contains(&format!("e 1.00 {expected}")), "{machine} {gcode}: {text}");
+        // Its firmware gives the auger half of what E says.
+        let fed = if machine == "snmf-4" { "0.50" } else { "1.00" };
+        assert!(text.contains(&format!("e {fed} {expected}")), "{machine} {gcode}: {text}");
         assert!(!text.contains('@'), "{machine} {gcode}: {text}");
     }
     let shown = show(None, &format!("M163 S0 P1\nM163 S1 P3\nM164 S0{print}"));

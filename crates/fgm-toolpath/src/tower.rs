@@ -46,7 +46,11 @@ impl TowerOptions {
 
     /// Length of bead that holds the volume, mm.
     pub fn length(&self) -> f64 {
-        self.volume / bead::area(self.width, self.height)
+        self.length_of(self.volume)
+    }
+
+    fn length_of(&self, volume: f64) -> f64 {
+        volume / bead::area(self.width, self.height)
     }
 
     /// The sides of a spot, beads included, whose one side is `ratio` (1 or more) times the other:
@@ -156,9 +160,17 @@ impl Towers {
     /// Appends a block that holds at least the volume, and less than a line more (at least two
     /// lines), on the spot of a colour; nothing for a colour that has none.
     pub fn purge(&self, color: ColorId, layer: usize, out: &mut Vec<Piece>) {
+        self.purge_volume(color, self.options.volume, layer, out);
+    }
+
+    /// As [`purge`](Self::purge), with another volume, mm³: one that is less than the towers' own
+    /// spreads its lines over the spot. On layer 0 the block is whole, so that it sticks.
+    pub fn purge_volume(&self, color: ColorId, volume: f64, layer: usize, out: &mut Vec<Piece>) {
         if let Some(spot) = self.spot(color) {
             let (along, across) = self.sides(&spot, layer);
-            let lines = ((self.options.length() - across) / along - 1e-9).ceil().max(2.0);
+            let whole = self.options.length();
+            let length = if layer == 0 { whole } else { self.options.length_of(volume).min(whole) };
+            let lines = ((length - across) / along - 1e-9).ceil().max(2.0);
             out.push(self.serpentine(&spot, layer, lines as u32, color));
         }
     }

@@ -34,6 +34,7 @@
 //! ```
 
 mod against;
+mod ahead;
 mod boundaries;
 mod choice;
 mod colors;
@@ -50,6 +51,7 @@ mod outlines;
 mod pipeline;
 mod placement;
 mod progress;
+mod purge;
 mod report;
 mod samples;
 mod sectioned;
@@ -66,12 +68,12 @@ pub use inspect::{Inspection, MaterialRange, inspect};
 pub use layers::{Layer, Layers};
 pub use machine::machine;
 pub use progress::{Progress, Quiet};
-pub use report::{MaterialUse, Report};
+pub use report::{DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
-    AgainstSettings, ContourSettings, InfillSettings, LayerSettings, LeadSettings, PaletteSettings,
-    PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings,
-    SliceSettings, WallSettings,
+    AgainstSettings, CompensationSettings, ContourSettings, InfillSettings, LayerSettings,
+    LeadSettings, PaletteSettings, PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings,
+    SkinSettings, SkirtSettings, SliceSettings, WallSettings,
 };
 pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;

@@ -1,5 +1,6 @@
 use fgm_field::Design;
 use fgm_gcode::{Machine, MachineKind};
+use fgm_sim::{Compensated, Fit};
 use serde::Serialize;
 
 use crate::stages::StageSeconds;
@@ -44,10 +45,58 @@ pub struct Report {
     pub print_time_s: f64,
     /// Each input material: name, volume mm³, length of filament m, mass g.
     pub materials: Vec<MaterialUse>,
+    /// How far the deposit is predicted to be from the colours of the paths; none for a printer
+    /// without a transition.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deposit: Option<DepositReport>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Where the time of the slice went, s.
     pub seconds: StageSeconds,
+}
+
+/// How far what is laid down is predicted to be from the colours of the part's paths, over their
+/// volume. An error is that of a fraction; of more than two materials it is the root of half the
+/// summed squares.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct DepositReport {
+    /// Whether commands were chosen for the deposit; else they are those of the look-ahead alone.
+    pub compensated: bool,
+    /// For the printer's transition.
+    #[serde(flatten)]
+    pub fit: DepositFit,
+    /// For transitions that are off by `compensation.uncertainty`: both volumes more, both less,
+    /// the delay more and the change less, the delay less and the change more.
+    pub off: Vec<DepositFit>,
+    /// Commands written.
+    pub commands: u64,
+}
+
+/// Errors of a deposit by one transition.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct DepositFit {
+    /// Before a change begins, mm³.
+    pub delay_mm3: f64,
+    /// During it, mm³.
+    pub change_mm3: f64,
+    /// Root mean square error with the look-ahead alone.
+    pub rms_plain: f64,
+    /// Root mean square error with the commands written.
+    pub rms: f64,
+}
+
+impl DepositReport {
+    pub(crate) fn new(compensated: bool, done: &Compensated) -> Option<Self> {
+        let fit = |fit: &Fit| DepositFit {
+            delay_mm3: fit.transition.delay,
+            change_mm3: fit.transition.length,
+            rms_plain: fit.plain,
+            rms: fit.told,
+        };
+        let (first, off) = done.fits.split_first()?;
+        let off = off.iter().map(fit).collect();
+        Some(Self { compensated, fit: fit(first), off, commands: done.commands })
+    }
 }
 
 /// How much of one input material a print takes.

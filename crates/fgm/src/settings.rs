@@ -150,8 +150,10 @@ settings! {
     purge: PurgeSettings {
         #[doc = "Whether to print purge towers."]
         enabled: Option<bool> = None, "on for mixing and foaming", "true | false";
-        #[doc = "Least volume of a purge; the dead volume where left out."]
-        volume: Option<f64> = None, "the dead volume", "mm3";
+        #[doc = "Least volume of a purge; where left out and the printer has a transition, what each change needs to come within the tolerance, else the dead volume."]
+        volume: Option<f64> = None, "by the transition, or the dead volume", "mm3";
+        #[doc = "How far the mixture may be from its goal where a purge by the transition ends."]
+        tolerance: f64 = 0.01, "0.01", "share";
         #[doc = "Change of mixture at or below which no purge is printed."]
         threshold: f64 = 0.0, "0", "share";
         #[doc = "Room between the part and the towers."]
@@ -161,6 +163,15 @@ settings! {
     lead: LeadSettings {
         #[doc = "Volume between the mixing and the nozzle's tip."]
         volume: Option<f64> = None, "the printer's", "mm3";
+    }
+    #[doc = "Commands chosen so that the deposit fits, for mixing printers with a transition."]
+    compensation: CompensationSettings {
+        #[doc = "Whether to choose them; else the look-ahead alone moves them."]
+        enabled: Option<bool> = None, "on where the printer has a transition", "true | false";
+        #[doc = "How far the transition's delay and length may be off without the deposit being worse than with the look-ahead alone."]
+        uncertainty: f64 = 0.2, "0.2", "share";
+        #[doc = "Least volume that a command lasts."]
+        shortest: f64 = 0.2, "0.2", "mm3";
     }
     #[doc = "Loops around the part on the first layer."]
     skirt: SkirtSettings {
@@ -254,8 +265,13 @@ impl Settings {
         within("against.max_width", most, least..=f64::MAX, "at least against.min_width")?;
         within("purge.volume", self.purge.volume.unwrap_or(0.0), 0.0..=1e5, "0 to 100000 mm3")?;
         within("purge.threshold", self.purge.threshold, 0.0..=1.0, "0 to 1")?;
+        within("purge.tolerance", self.purge.tolerance, 0.0..=1.0, "0 to 1")?;
         within("purge.clearance", self.purge.clearance, 0.0..=1e3, "0 to 1000 mm")?;
         within("lead.volume", self.lead.volume.unwrap_or(0.0), 0.0..=1e6, "0 to 1000000 mm3")?;
+        let compensation = &self.compensation;
+        let off = compensation.uncertainty;
+        within("compensation.uncertainty", off, 0.0..=0.9, "0 to 0.9")?;
+        within("compensation.shortest", compensation.shortest, 1e-3..=1e5, "0.001 to 100000 mm3")?;
         within("skirt.gap", self.skirt.gap, 0.0..=1e3, "0 to 1000 mm")?;
         let count = |key, value: usize, most: usize, wanted| {
             within(key, value as f64, 0.0..=most as f64, wanted)

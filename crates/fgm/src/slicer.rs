@@ -1,12 +1,13 @@
 use std::{io::Write, ops::Range, time::Instant};
 
-use fgm_core::{Bounds2, Bounds3, ColorId, Interval, Mixture, Point3};
+use fgm_core::{Bounds3, Interval, Mixture, Point3};
 use fgm_field::Design;
-use fgm_gcode::{Lead, Machine, MachineKind, Summary, Writer, WriterOptions};
+use fgm_gcode::{Machine, MachineKind, Summary, Writer, WriterOptions};
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, Inset, TowerOptions, Towers};
+use fgm_toolpath::{ClipperInset, Inset};
 
 use crate::{
+    ahead::Ahead,
     choice::{ColorCount, Strategy, Zipper},
     colors,
     error::SliceError,
@@ -16,6 +17,7 @@ use crate::{
     outlines::{OutlineWindow, Outliner},
     pipeline, placement,
     progress::Progress,
+    purge::{self, Purge},
     report::{Report, material_use},
     settings::Settings,
     stages::{StageSeconds, timed},
@@ -150,7 +152,7 @@ impl<'a> Slicer<'a> {
             progress.advance(done, total);
             Ok(())
         })?;
-        let summary = timed(&mut seconds.write, || stream.finish())?;
+        let (summary, deposit) = timed(&mut seconds.write, || stream.finish())?;
         if report.pieces == 0 {
             return Err(SliceError::NothingToPrint {
                 reason: "no bead fits into any layer: the part is thinner than a bead".into(),
@@ -158,6 +160,7 @@ impl<'a> Slicer<'a> {
         }
         seconds.total = start.elapsed().as_secs_f64();
         self.fill(&mut report, &summary, palette.colors(), total);
+        report.deposit = deposit;
         report.warnings = warnings;
         report.seconds = seconds;
         Ok(report)
@@ -277,7 +280,7 @@ impl<'a> Slicer<'a> {
         let mixtures: Vec<Mixture> = colors::ids(palette).map(|c| palette.state(c)).collect();
         let states = self.machine.states(&mixtures)?;
         let lead = self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume());
-        let resolved = self.resolved(palette, lead, &range);
+        let resolved = self.resolved(&mixtures, lead, &range);
         let mut comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION"))];
         comments.extend(self.head.iter().cloned());
         comments.extend(head::lines(&resolved, self.machine));
@@ -288,74 +291,35 @@ impl<'a> Slicer<'a> {
             total_layers: u32::try_from(range.len()).ok(),
             ..WriterOptions::of(self.machine)
         };
-        // A colour that cannot occur has no spot, and none is kept above its last layer.
         let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
-        let mut next = (0..).map(ColorId);
-        let spots: Vec<Option<ColorId>> =
-            last.iter().map(|last| last.and_then(|_| next.next())).collect();
-        let purge = self.settings.purge.volume.unwrap_or(lead);
-        let mut towers = self.towers(last.iter().flatten().count(), purge, part, offset)?;
-        if let Some(towers) = &mut towers {
-            for (spot, last) in spots.iter().flatten().zip(last.iter().flatten()) {
-                towers.finish(*spot, *last);
-            }
-        }
+        let place = (part, offset);
+        let (machine, settings) = (self.machine, self.settings);
         Ok(Stream {
-            lead: Lead::with_volume(self.machine, lead),
-            writer: Writer::new(out, self.machine, &states, &options)?,
-            towers,
-            spots,
-            palette,
+            ahead: Ahead::new(machine, settings, lead, &mixtures, &states),
+            writer: Writer::new(out, machine, &states, &options)?,
+            purge: Purge::new(machine, settings, lead, &mixtures, &last, place)?,
             layers,
-            threshold: self.settings.purge.threshold,
             color: None,
             count: 0,
         })
     }
 
-    /// Whether purge towers are wanted.
-    fn purges(&self) -> bool {
-        let usual = self.machine.kind != MachineKind::ToolChanger;
-        self.settings.slice.strategy == Strategy::Sectioned
-            && self.settings.purge.enabled.unwrap_or(usual)
-    }
-
-    /// The purge towers, one for each of so many colours, where there is something to purge.
-    fn towers(
-        &self,
-        colors: usize,
-        volume: f64,
-        part: &Bounds3,
-        offset: Point3,
-    ) -> Result<Option<Towers>, SliceError> {
-        if !self.purges() || volume <= 0.0 || colors < 2 {
-            return Ok(None);
-        }
-        let bed = self.machine.bed.bounds().xy();
-        let bed = Bounds2::new(bed.min - offset.truncate(), bed.max - offset.truncate());
-        let options = TowerOptions {
-            volume,
-            width: self.settings.layer.bead_width,
-            height: self.settings.layer.height.min(self.settings.first_height()),
-            clearance: self.settings.purge.clearance,
-            ..TowerOptions::default()
-        };
-        let around = part.xy().grown(self.settings.skirt_reach());
-        Ok(Some(Towers::place(&around, &bed, colors, &options)?))
-    }
-
     /// The settings with what was left to the machine or to other settings.
-    fn resolved(&self, palette: &Palette, lead: f64, range: &Range<usize>) -> Settings {
+    fn resolved(&self, palette: &[Mixture], lead: f64, range: &Range<usize>) -> Settings {
         let mut resolved = self.settings.clone();
         let (least, most) = self.settings.bead_widths();
         resolved.slice.first_layer = range.start + 1;
         resolved.slice.last_layer = Some(range.end);
         resolved.layer.first_height = Some(self.settings.first_height());
-        resolved.palette.colors = Some(ColorCount::Count(palette.colors()));
+        resolved.palette.colors = Some(ColorCount::Count(palette.len()));
         resolved.against.min_width = Some(least);
         resolved.against.max_width = Some(most);
-        resolved.purge.enabled = Some(self.purges());
-        resolved.purge.volume = Some(self.settings.purge.volume.unwrap_or(lead));
+        resolved.purge.enabled = Some(purge::wanted(self.machine, self.settings));
+        let purge = purge::largest(self.machine, self.settings, lead, palette);
+        resolved.purge.volume = Some(purge);
+        let shapes = self.machine.transition.volumes().is_some();
+        let compensation = &mut resolved.compensation;
+        compensation.enabled = Some(compensation.enabled.unwrap_or(true) && shapes);
         resolved.lead.volume = Some(lead);
         resolved
     }

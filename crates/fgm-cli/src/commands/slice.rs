@@ -6,7 +6,7 @@ use std::{
 };
 
 use fgm::{
-    Report, Settings, Slicer,
+    DepositReport, Report, Settings, Slicer,
     design::{self, LoadOptions},
     gcode::Machine,
 };
@@ -266,6 +266,21 @@ fn summary(report: &Report, output: &Path) {
         report.state_changes,
         duration(report.print_time_s)
     );
+    if let Some(deposit) = &report.deposit {
+        let _ = writeln!(err, "  {dash} {}", deposit_summary(deposit));
+    }
+}
+
+/// What is predicted of the deposit.
+fn deposit_summary(deposit: &DepositReport) -> String {
+    let percent = |share: f64| 100.0 * share;
+    let fit = &deposit.fit;
+    let plain = format!("{:.2} % rms error with the look-ahead alone", percent(fit.rms_plain));
+    if deposit.compensated {
+        format!("deposit: {:.2} % rms error, {plain}", percent(fit.rms))
+    } else {
+        format!("deposit: {plain}")
+    }
 }
 
 /// Seconds as a person says them.

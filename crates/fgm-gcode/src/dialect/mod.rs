@@ -8,7 +8,7 @@ use fgm_core::ColorId;
 use crate::{DialectName, Fixed, GcodeError, Machine, State, Text};
 
 pub use foaming::Foam;
-pub use marlin::{MarlinDirect, MarlinMixing, Motors};
+pub use marlin::{MarlinDirect, MarlinMixing, MarlinTools, Motors};
 pub use mixing::{Kalico, RepRap, Repetier};
 pub use tools::{PrusaXl, ToolChange};
 
@@ -23,6 +23,11 @@ pub trait Dialect {
     /// # Errors
     /// [`GcodeError`] where the state cannot be told, such as a ratio that is no number.
     fn state(&mut self, change: &Change<'_>, out: &mut Text) -> Result<(), GcodeError>;
+
+    /// Learns the palette's states, before anything is written. Nothing by default.
+    fn palette(&mut self, states: &[State]) {
+        let _ = states;
+    }
 
     /// Follows where the deposit takes on a colour, a dead volume after [`state`](Self::state):
     /// here the flow is told, unless it is [folded into E](Self::folds_flow). Nothing by default.
@@ -137,6 +142,9 @@ impl Machine {
             Motors::new(leading, self.inputs)
         };
         match options.name {
+            DialectName::MarlinMixing if options.virtual_tools > 0 => {
+                Box::new(MarlinTools::new(mixing(), options.virtual_tools))
+            }
             DialectName::MarlinMixing => Box::new(MarlinMixing::new(mixing(), tool)),
             DialectName::MarlinDirect => Box::new(MarlinDirect::new(mixing())),
             DialectName::RepRap => Box::new(RepRap::new(mixing(), tool)),
@@ -201,6 +209,29 @@ mod tests {
         ] {
             assert_eq!(change(&machine(name), &weights), expected, "{name:?}");
         }
+    }
+
+    #[test]
+    fn a_table_of_tools_is_written_once_and_its_last_one_is_free() {
+        let mut machine = machine(DialectName::MarlinMixing);
+        machine.dialect.virtual_tools = 2;
+        let mut dialect = machine.dialect();
+        let states = [PURE, LOW, [0.5, 0.5]].map(|w| state(&w));
+        dialect.palette(&states);
+        let mut tell = |weights: [f64; 2]| {
+            let (state, mut out) = (state(&weights), Text::new());
+            let color = ColorId(0);
+            let change =
+                Change { color, state: &state, previous: None, temperature: 215.0, standby: None };
+            dialect.state(&change, &mut out).unwrap();
+            out.to_text()
+        };
+        let low = "M163 S0 P0.25\nM163 S1 P0.75\nM164 S1\nT1\n";
+        let table = "M163 S0 P1\nM163 S1 P0\nM164 S0\nM163 S0 P0.25\nM163 S1 P0.75\nM164 S1\nT1\n";
+        assert_eq!(tell(LOW), table);
+        assert_eq!(tell(PURE), "T0\n");
+        assert_eq!(tell([0.5, 0.5]), "M163 S0 P0.5\nM163 S1 P0.5\nM164 S1\nT1\n");
+        assert_eq!(tell(LOW), low);
     }
 
     #[test]

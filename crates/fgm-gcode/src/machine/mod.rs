@@ -8,8 +8,8 @@ mod validate;
 
 pub use bed::Bed;
 pub use parts::{
-    DialectName, DialectOptions, Fan, Foaming, LeadOptions, MotionLimits, Retraction, Speeds,
-    Temperatures, Templates, ToolChanging, TransitionOptions,
+    Auger, DialectName, DialectOptions, Fan, Foaming, LeadOptions, MotionLimits, Retraction,
+    Speeds, Temperatures, Templates, ToolChanging, TransitionOptions,
 };
 #[cfg(feature = "serde")]
 pub use profile::MachineError;
@@ -63,6 +63,8 @@ pub struct Machine {
     pub bed: Bed,
     /// The firmware's language.
     pub dialect: DialectOptions,
+    /// An auger with a speed of its own.
+    pub auger: Auger,
     /// Extrusion between a command and its effect.
     pub lead: LeadOptions,
     /// How the deposit follows a command, where it was measured.
@@ -101,6 +103,7 @@ impl Default for Machine {
             max_flow: None,
             bed: Bed::default(),
             dialect: DialectOptions::default(),
+            auger: Auger::default(),
             lead: LeadOptions::default(),
             transition: TransitionOptions::default(),
             temperature: Temperatures::default(),
@@ -119,7 +122,7 @@ impl Machine {
     /// Volume extruded between a command and its arrival at the nozzle's tip, mm³; on a tool
     /// changer, how far ahead of its use a head is heated.
     ///
-    /// Where the profile gives no lead but a transition, that is the transition's middle.
+    /// Where the profile gives a transition, that is its middle, else its lead.
     ///
     /// ```
     /// use fgm_gcode::{LeadOptions, Machine};
@@ -128,7 +131,7 @@ impl Machine {
     /// assert!((machine.dead_volume() - 68.56).abs() < 0.01);
     /// ```
     pub fn dead_volume(&self) -> f64 {
-        self.lead.volume().or(self.transition.middle()).unwrap_or(0.0)
+        self.transition.middle().or(self.lead.volume()).unwrap_or(0.0)
     }
 
     /// How many colours a palette may have, where the heads limit it.
@@ -139,6 +142,17 @@ impl Machine {
     /// Filaments mixed, or heads; 2 for a foaming filament.
     pub fn inputs(&self) -> usize {
         self.inputs
+    }
+
+    /// What E is written with for a firmware that scales the weights of all motors to a sum of 1:
+    /// their sum, so that each turns by its weight again; else 1.
+    pub fn feed_factor(&self) -> f64 {
+        let leading = self.dialect.leading_weights.iter().sum::<f64>();
+        if self.dialect.normalises && self.kind == MachineKind::Mixing {
+            1.0 + leading
+        } else {
+            1.0
+        }
     }
 
     /// Section of the filament, mm².

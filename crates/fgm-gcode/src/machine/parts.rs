@@ -60,8 +60,37 @@ part!(
         /// Weights of the motors before the filaments'. An auger that turns with every flow is
         /// motor 0 of weight 1, and the filaments start at motor 1: `[1.0]`.
         leading_weights: Vec<f64> = Vec::new(),
+        /// Whether the firmware scales all weights to a sum of 1, as a stock Marlin does. Leading
+        /// motors would take their share from the filaments: every E is then written that much
+        /// larger.
+        normalises: bool = false,
+        /// Virtual tools that keep the palette's mixtures (Marlin, at most 16): written once, then
+        /// called by `T<n>`. 0 for rewriting `virtual_tool` at each change.
+        virtual_tools: u32 = 0,
     }
 );
+
+part!(
+    /// An auger whose speed the firmware has to be told; one that turns as a leading motor follows
+    /// the flow by itself.
+    Auger {
+        /// Flow at one turn a second, mm³/s: Q0 of the active-mixing paper, eq. 2.
+        flow: Option<f64> = None,
+        /// What sets the speed: `{rpm}` is turns a minute. Written before a bead of another flow;
+        /// empty for never.
+        command: String = String::new(),
+        /// What stops it after the print.
+        stop: String = String::new(),
+    }
+);
+
+impl Auger {
+    /// Turns a minute for a flow in mm³/s, whole ones: `60 Q / Q0`; none where nothing is told.
+    pub fn turns(&self, flow: f64) -> Option<u32> {
+        let unit = self.flow.filter(|_| !self.command.is_empty())?;
+        Some((60.0 * flow / unit).round() as u32)
+    }
+}
 
 part!(
     /// Extrusion between a command and its arrival at the nozzle's tip: a volume, or the length of

@@ -40,6 +40,13 @@ impl Machine {
         for &weight in &self.dialect.leading_weights {
             check("dialect.leading_weights", weight, &NOT_NEGATIVE)?;
         }
+        let tools = f64::from(self.dialect.virtual_tools);
+        check("dialect.virtual_tools", tools, &Range(0.0, 16.0, "0 to 16"))?;
+        option("auger.flow", self.auger.flow, &POSITIVE)?;
+        if self.auger.flow.is_none() && !self.auger.command.is_empty() {
+            let expected = "the flow at one turn a second, for a command with a speed";
+            return Err(GcodeError::Setting { name: "auger.flow".into(), value: 0.0, expected });
+        }
         option("lead.volume", self.lead.volume, &NOT_NEGATIVE)?;
         option("lead.length", self.lead.length, &NOT_NEGATIVE)?;
         check("lead.layer_height", self.lead.layer_height, &POSITIVE)?;
@@ -78,6 +85,15 @@ impl Machine {
         };
         if !fits {
             return Err(GcodeError::DialectMismatch { dialect, kind, expected });
+        }
+        if self.dialect.virtual_tools > 0 && dialect != DialectName::MarlinMixing {
+            let expected = "a table of virtual tools is for marlin-mixing";
+            let value = f64::from(self.dialect.virtual_tools);
+            return Err(GcodeError::Setting {
+                name: "dialect.virtual_tools".into(),
+                value,
+                expected,
+            });
         }
         let motors = self.inputs + self.dialect.leading_weights.len();
         let (most, expected) = match (kind, dialect) {

@@ -109,6 +109,9 @@ impl<W: io::Write> Writer<W> {
     pub(super) fn tail(&mut self) -> Result<(), GcodeError> {
         self.retract(self.options.retraction.length)?;
         self.dialect.end(&mut self.text);
+        if !self.machine.auger.stop.is_empty() {
+            self.text.line(&self.machine.auger.stop);
+        }
         let state = self.heads.state;
         let end = std::mem::take(&mut self.machine.template.end);
         let rendered = template::render("end", &end, &|name| match name {

@@ -92,6 +92,8 @@ impl<W: io::Write> Writer<W> {
         used.motion = options.limits.clone();
         used.max_flow = options.max_flow;
         used.validate()?;
+        let mut dialect = dialect;
+        dialect.palette(states);
         let first = *states.first().ok_or(GcodeError::NoColors)?;
         let inputs = Summary::inputs(machine.kind, states, machine.inputs);
         let writer = Self {

@@ -23,6 +23,9 @@ pub(super) struct Bead {
     folded: f64,
     /// What E still owes, in units of its last decimal.
     owed: f64,
+    /// Turns a minute of an auger, as the bead needs them and as told last.
+    turns: Option<u32>,
+    told_turns: Option<u32>,
     /// Last tags written.
     tag_role: Option<Role>,
     tag_width: Option<Fixed<3>>,
@@ -41,6 +44,8 @@ impl Default for Bead {
             state_flow: 1.0,
             folded: 1.0,
             owed: 0.0,
+            turns: None,
+            told_turns: None,
             tag_role: None,
             tag_width: None,
         }
@@ -147,19 +152,26 @@ impl<W: io::Write> Writer<W> {
         let filament = self.machine.filament_area();
         bead.volume = area * options.flow[role as usize];
         bead.fed = bead.volume * bead.state_flow;
-        bead.units = bead.volume * bead.folded / filament * Bead::E_UNITS;
+        let factor = self.machine.feed_factor();
+        bead.units = bead.volume * bead.folded * factor / filament * Bead::E_UNITS;
         bead.speed = speed(options, role, self.summary.layers <= 1);
         if let Some(most) = options.max_flow {
             bead.speed = bead.speed.min(most / bead.fed.max(f64::MIN_POSITIVE));
         }
         bead.feedrate = feedrate(bead.speed);
+        bead.turns = self.machine.auger.turns(bead.speed * bead.fed);
         bead.known = Some((width, role));
         Ok(())
     }
 
-    /// `;TYPE:` and `;WIDTH:` where they change, and the fan for bridges.
+    /// What comes before a bead where it changes: an auger's speed, `;TYPE:`, `;WIDTH:`, the fan for
+    /// bridges.
     #[inline]
     fn tags(&mut self, width: f64, role: Role) -> Result<(), GcodeError> {
+        if let Some(turns) = self.bead.turns.filter(|_| self.bead.turns != self.bead.told_turns) {
+            self.bead.told_turns = Some(turns);
+            self.text.line(&self.machine.auger.command.replace("{rpm}", &turns.to_string()));
+        }
         if self.bead.tag_role != Some(role) {
             let last = self.bead.tag_role.replace(role);
             self.dialect.comment(&format!("TYPE:{}", tag(role)), &mut self.text);
@@ -254,7 +266,8 @@ impl<W: io::Write> Writer<W> {
 
     fn pull(&mut self, by: f64) -> Result<(), GcodeError> {
         let speed = self.options.retraction.speed;
-        self.go(None, None, Some(Fixed::round(by)?), feedrate(speed));
+        let fed = by * self.machine.feed_factor();
+        self.go(None, None, Some(Fixed::round(fed)?), feedrate(speed));
         self.time.dwell(by.abs() / speed);
         Ok(())
     }

@@ -239,7 +239,7 @@ impl Known {
             bed: machine.map(|m| m.bed.bounds()),
             least_celsius: machine.map_or(USUAL_LEAST, |m| m.temperature.min_extrusion),
             max_bead_area: machine.and_then(|m| m.max_bead_area),
-            filament_area: machine.map_or(usual, Machine::filament_area),
+            filament_area: machine.map_or(usual, |m| m.filament_area() / m.feed_factor()),
             foaming: foams.map(|m| (m.foaming.low, m.foaming.high)),
             retraction: machine.map_or((1.0, 35.0), |m| (m.retraction.length, m.retraction.speed)),
         }

@@ -1,0 +1,67 @@
+//! What stands between the motions and the writer: commands before their boundaries.
+
+use fgm_core::{Mixture, Motion};
+use fgm_gcode::{GcodeError, Lead, Machine, MachineKind, State, Step};
+use fgm_sim::{Compensate, CompensateOptions};
+
+use crate::{report::DepositReport, settings::Settings};
+
+/// The look-ahead alone, or commands chosen for the deposit.
+pub(crate) enum Ahead {
+    Lead(Lead),
+    Compensate { enabled: bool, compensate: Box<Compensate> },
+}
+
+impl Ahead {
+    /// What a machine needs: on a mixing machine with a transition the commands are chosen, or the
+    /// error of the look-ahead alone is measured; else there is the look-ahead.
+    pub(crate) fn new(
+        machine: &Machine,
+        settings: &Settings,
+        lead: f64,
+        palette: &[Mixture],
+        states: &[State],
+    ) -> Self {
+        let mixing = machine.kind == MachineKind::Mixing;
+        let Some(options) = CompensateOptions::of(machine).filter(|_| mixing) else {
+            return Self::Lead(Lead::with_volume(machine, lead));
+        };
+        let wanted = &settings.compensation;
+        let enabled = wanted.enabled.unwrap_or(true);
+        let options = CompensateOptions {
+            enabled,
+            lead,
+            uncertainty: wanted.uncertainty,
+            shortest: wanted.shortest,
+            ..options
+        };
+        let compensate = Box::new(Compensate::new(&options, palette, states));
+        Self::Compensate { enabled, compensate }
+    }
+
+    /// Takes the next motion.
+    pub(crate) fn push(
+        &mut self,
+        motion: Motion,
+        emit: impl FnMut(Step) -> Result<(), GcodeError>,
+    ) -> Result<(), GcodeError> {
+        match self {
+            Self::Lead(lead) => lead.push(motion, emit),
+            Self::Compensate { compensate, .. } => compensate.push(motion, emit),
+        }
+    }
+
+    /// Emits the rest; gives what is predicted of the deposit.
+    pub(crate) fn finish(
+        self,
+        emit: impl FnMut(Step) -> Result<(), GcodeError>,
+    ) -> Result<Option<DepositReport>, GcodeError> {
+        match self {
+            Self::Lead(lead) => lead.finish(emit).map(|()| None),
+            Self::Compensate { enabled, compensate } => {
+                let done = compensate.finish(emit)?;
+                Ok(DepositReport::new(enabled, &done))
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What the report says of the deposit, with and without commands chosen for it, and the purge
+//! that a transition asks for.
+
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
+mod common;
+
+use common::{parse, settings, slice};
+use fgm::{Report, Strategy};
+
+/// A plate with a gradient along x, wide enough that every band takes several transitions.
+const PLATE: &str =
+    r#"fgrade(["x/60 + 0.5", "0.5 - x/60"], ["white", "blue"]) { rectprism(60, 40, 1.6); }"#;
+
+fn sliced(strategy: Strategy, changes: &str) -> Report {
+    let mut settings = settings(strategy, 4);
+    settings.infill.density = 100.0;
+    let table: toml::Table = changes.parse().unwrap();
+    let wanted: fgm::Settings = table.try_into().unwrap();
+    settings.compensation = wanted.compensation.clone();
+    settings.purge = wanted.purge.clone();
+    let mut machine = fgm::gcode::Machine::builtin("generic-mixing").unwrap();
+    machine.transition.delay = Some(5.0);
+    machine.transition.change = Some(10.0);
+    let design = parse(PLATE);
+    let mut out = Vec::new();
+    fgm::Slicer::new(&design, &machine, &settings).slice(&mut out, &fgm::Quiet).unwrap()
+}
+
+#[test]
+fn a_printer_with_a_transition_is_compensated() {
+    for strategy in [Strategy::Sectioned, Strategy::Against] {
+        let deposit = sliced(strategy, "").deposit.unwrap();
+        assert!(deposit.compensated);
+        assert!(deposit.fit.rms < 0.75 * deposit.fit.rms_plain, "{strategy}: {deposit:?}");
+        assert_eq!(deposit.off.len(), 4);
+        assert!(
+            deposit.off.iter().all(|fit| fit.rms <= fit.rms_plain * (1.0 + 1e-9)),
+            "{deposit:?}"
+        );
+
+        let plain = sliced(strategy, "[compensation]\nenabled = false").deposit.unwrap();
+        assert!(!plain.compensated);
+        assert_eq!(plain.fit.rms, plain.fit.rms_plain);
+        assert!((plain.fit.rms - deposit.fit.rms_plain).abs() < 1e-9, "{plain:?} {deposit:?}");
+    }
+}
+
+#[test]
+fn a_printer_without_one_is_not() {
+    let (report, _) = slice(&parse(PLATE), "generic-mixing", &settings(Strategy::Against, 4));
+    assert_eq!(report.deposit, None);
+}
+
+#[test]
+fn the_purge_follows_the_tolerance() {
+    let purge = |tolerance: f64| {
+        sliced(Strategy::Sectioned, &format!("[purge]\ntolerance = {tolerance}")).purge_mm3
+    };
+    // A change is a quarter: at 0.125 half of its length is left out, at 0.25 all of it.
+    let (whole, half, none) = (purge(0.0), purge(0.125), purge(0.25));
+    assert!(half < 0.8 * whole && half > 0.3 * whole, "{half} {whole}");
+    assert!(none < 0.5 * half, "{none} {half}");
+}
