@@ -38,23 +38,27 @@ pub(crate) fn is_saddle(case: u8) -> bool {
 }
 
 /// The segments of a case; `above` says whether the centre of a saddle is at the level or above.
-pub(crate) fn links(case: u8, above: bool) -> &'static [Link] {
+pub(crate) const fn links(case: u8, above: bool) -> &'static [Link] {
     match (case, above) {
         (5, true) => SADDLE_5_ABOVE,
         (10, true) => SADDLE_10_ABOVE,
-        _ => CASES[usize::from(case & 15)],
+        _ => CASES[(case & 15) as usize],
     }
 }
 
 /// The asymptotic decider: whether the bilinear interpolant of a cell is at `level` or above it
 /// where its two asymptotes meet. Corners in the order 0 to 3.
 ///
+/// That value does not depend on the level, so that of two levels the lower is above its saddle
+/// where the higher is, rounding or not, and their lines do not cross.
+///
 /// After Nielson and Hamann, "The asymptotic decider", IEEE Visualization 1991.
 pub(crate) fn saddle_is_above(corners: [f64; 4], level: f64) -> bool {
-    let [a, b, c, d] = corners.map(|v| v - level);
-    // At a saddle a and c have one sign and b and d the other, so the divisor is never 0 but
-    // where all four are. The comparison is false for infinite values, which separates them.
-    (a * c - b * d) / (a + c - b - d) >= 0.0
+    let [a, b, c, d] = corners;
+    let (b, c, d) = (b - a, c - a, d - a);
+    // At a saddle the divisor is not 0: a and c are on one side of the level, b and d on the
+    // other. The comparison is false for what infinite values give, which separates them.
+    a + b * d / (b + d - c) >= level
 }
 
 #[cfg(test)]

@@ -1,3 +1,4 @@
+use crate::bands::{self, Assembler, Band, Border, Rings};
 use crate::graph::{Chains, Graph};
 use crate::lattice::Lattice;
 use crate::lines::Lines;
@@ -5,6 +6,7 @@ use crate::options::{check_levels, check_window};
 use crate::place::Placer;
 use crate::prune::Blocks;
 use crate::refine::Refiner;
+use crate::rim::window_border;
 use crate::simplify::Simplifier;
 use crate::sweep::{Sweep, Task};
 use crate::{ContourError, ContourOptions, nest};
@@ -17,7 +19,7 @@ pub struct LevelLines {
     pub level: f64,
     /// Closed lines.
     pub rings: Vec<Ring>,
-    /// Lines that end at the window's edge, or where the field is not a number.
+    /// Open lines: those that end at the window's edge, or where the field is not a number.
     pub lines: Vec<Polyline>,
 }
 
@@ -82,7 +84,39 @@ pub fn outline(
     Contourer::default().outline(field, window, options)
 }
 
-/// [`isolines`] and [`outline`] with scratch memory that is kept from one call to the next: one
+/// The regions of a window below, between and above levels of a field: one more than there are
+/// different levels, from the lowest up. Their borders are the lines of [`isolines`], the same for
+/// both neighbours to the last bit, and the window's edge; together they are the window.
+///
+/// Where the field jumps over several levels, the bands between have no width there and borders
+/// may touch.
+///
+/// # Errors
+/// [`ContourError`] for a window, levels or options out of range, where the field is NaN, and
+/// where its bounds are false.
+///
+/// ```
+/// use fgm_contour::{ContourOptions, isobands};
+/// use fgm_core::{Bounds2, Point2};
+///
+/// let window = Bounds2::new(Point2::splat(-6.0), Point2::splat(6.0));
+/// let distance = |p: Point2| p.length();
+/// let bands = isobands(&distance, &window, &[2.0, 4.0], &ContourOptions::default())?;
+/// assert_eq!(bands[1].polygons[0].holes.len(), 1);
+/// let total: f64 = bands.iter().flat_map(|b| &b.polygons).map(|p| p.area()).sum();
+/// assert!((total - 144.0).abs() < 1e-9);
+/// # Ok::<(), fgm_contour::ContourError>(())
+/// ```
+pub fn isobands(
+    field: &dyn PlanarField,
+    window: &Bounds2,
+    levels: &[f64],
+    options: &ContourOptions,
+) -> Result<Vec<Band>, ContourError> {
+    Contourer::default().isobands(field, window, levels, options)
+}
+
+/// [`isolines`], [`isobands`] and [`outline`] with scratch memory that is kept from one call to the next: one
 /// for each thread that contours layer after layer. The answers are the same.
 #[derive(Debug, Default)]
 pub struct Contourer {
@@ -93,14 +127,14 @@ pub struct Contourer {
 
 /// From crossings to lines.
 #[derive(Debug, Default)]
-pub(crate) struct Trace {
-    pub(crate) graph: Graph,
-    pub(crate) positions: Vec<Point2>,
-    pub(crate) chains: Chains,
-    pub(crate) lines: Lines,
+struct Trace {
+    graph: Graph,
+    positions: Vec<Point2>,
+    chains: Chains,
+    lines: Lines,
     placer: Placer,
     refiner: Refiner,
-    pub(crate) simplifier: Simplifier,
+    simplifier: Simplifier,
 }
 
 impl Contourer {
@@ -124,6 +158,61 @@ impl Contourer {
             Task { lattice: &lattice, field, levels: &sorted.levels, skip_nan: options.skip_nan };
         self.trace(&task, options)?;
         Ok(sorted.collect(levels, &self.trace.lines))
+    }
+
+    /// See [`isobands`].
+    ///
+    /// # Errors
+    /// As [`isobands`].
+    pub fn isobands(
+        &mut self,
+        field: &dyn PlanarField,
+        window: &Bounds2,
+        levels: &[f64],
+        options: &ContourOptions,
+    ) -> Result<Vec<Band>, ContourError> {
+        let (Sorted { levels }, border) = self.bordered(field, window, levels, options)?;
+        let mut rings = Rings::default();
+        let assembler = Assembler { lines: &self.trace.lines, border: &border };
+        assembler.run(|_| true, |_| true, &mut rings);
+        Ok(bands::bands_of(&levels, rings.list))
+    }
+
+    /// For each level, in the order asked for, the region of the window below it: the lines of
+    /// [`isolines`], closed along the window's edge.
+    ///
+    /// # Errors
+    /// As [`isobands`].
+    pub fn below(
+        &mut self,
+        field: &dyn PlanarField,
+        window: &Bounds2,
+        levels: &[f64],
+        options: &ContourOptions,
+    ) -> Result<Vec<Band>, ContourError> {
+        let (sorted, border) = self.bordered(field, window, levels, options)?;
+        let regions = bands::below(&sorted.levels, &self.trace.lines, &border);
+        Ok(sorted.in_order(levels, regions))
+    }
+
+    /// Traces all lines, with the window's edge.
+    fn bordered(
+        &mut self,
+        field: &dyn PlanarField,
+        window: &Bounds2,
+        levels: &[f64],
+        options: &ContourOptions,
+    ) -> Result<(Sorted, Border), ContourError> {
+        options.check()?;
+        check_window(window)?;
+        check_levels(levels)?;
+        let sorted = Sorted::new(levels);
+        let lattice = Lattice::new(window, options.cell, false)?;
+        let task = Task { lattice: &lattice, field, levels: &sorted.levels, skip_nan: false };
+        self.trace(&task, options)?;
+        let Trace { graph, chains, lines, .. } = &self.trace;
+        let border = window_border(&task, graph, chains, lines)?;
+        Ok((sorted, border))
     }
 
     /// See [`outline`].
@@ -185,7 +274,7 @@ impl Sorted {
     /// Lines by level, in the order asked for.
     pub(crate) fn collect(&self, levels: &[f64], lines: &Lines) -> Vec<LevelLines> {
         let mut found = vec![LevelLines::default(); self.levels.len()];
-        for line in &lines.list {
+        for line in lines.list.iter().filter(|l| l.from < l.to) {
             let points = lines.points(line).to_vec();
             let slot = &mut found[usize::from(line.level)];
             if line.closed {
@@ -194,14 +283,22 @@ impl Sorted {
                 slot.lines.push(Polyline::new(points));
             }
         }
+        for (lines, &level) in found.iter_mut().zip(&self.levels) {
+            lines.level = level;
+        }
+        self.in_order(levels, found)
+    }
+
+    /// What was found for each level, in the order asked for.
+    pub(crate) fn in_order<T: Clone>(&self, levels: &[f64], found: Vec<T>) -> Vec<T> {
+        let mut found: Vec<Option<T>> = found.into_iter().map(Some).collect();
         let mut last = vec![0; found.len()];
         let place = |&level: &f64| self.levels.partition_point(|&l| l < level);
         levels.iter().enumerate().for_each(|(k, level)| last[place(level)] = k);
         let take = |(k, level): (usize, &f64)| {
             let slot = &mut found[place(level)];
-            let lines = if last[place(level)] == k { std::mem::take(slot) } else { slot.clone() };
-            LevelLines { level: *level, ..lines }
+            if last[place(level)] == k { slot.take() } else { slot.clone() }
         };
-        levels.iter().enumerate().map(take).collect()
+        levels.iter().enumerate().filter_map(take).collect()
     }
 }

@@ -71,18 +71,6 @@ impl Lattice {
         })
     }
 
-    /// A lattice over given samples.
-    pub(crate) fn of_samples(origin: Point2, step: Point2, columns: u32, rows: u32) -> Self {
-        let axis = |start: f64, step: f64, samples: u32| Axis {
-            start,
-            end: start + f64::from(samples - 1) * step,
-            step,
-            inner: samples - 1,
-            pad: 0,
-        };
-        Self { x: axis(origin.x, step.x, columns), y: axis(origin.y, step.y, rows), closed: false }
-    }
-
     /// All that is sampled.
     pub(crate) fn window(&self) -> Bounds2 {
         let (x, y) = (&self.x, &self.y);

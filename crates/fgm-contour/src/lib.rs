@@ -56,6 +56,7 @@
 //!    segments (`contact`) and taken back where it would touch one.
 //! 5. Vertices within the tolerance go, again checked (`simplify`).
 
+mod bands;
 mod cases;
 mod contact;
 mod contour;
@@ -73,14 +74,16 @@ mod place;
 mod probe;
 mod prune;
 mod refine;
+mod rim;
 mod root;
 mod simplify;
 mod sweep;
 
-pub use contour::{Contourer, LevelLines, isolines, outline};
+pub use bands::Band;
+pub use contour::{Contourer, LevelLines, isobands, isolines, outline};
 pub use crossings::{Crossing, Crossings};
 pub use error::ContourError;
-pub use grid::Grid;
+pub use grid::{Grid, GridContourer, LineRef, Sample};
 pub use mesh::{DEFAULT_GAP, Issue, MeshIssues, MeshSlicer, Section, SectionWarning};
 pub use nest::nest;
 pub use options::{ContourOptions, MAX_CELLS_A_SIDE, MAX_CROSSINGS, MAX_LEVELS, MAX_TRIANGLES};

@@ -1,6 +1,5 @@
 use crate::ContourError;
 use crate::graph::{Graph, Node};
-use crate::lattice::Lattice;
 use crate::root::Bracket;
 use crate::sweep::Task;
 use fgm_core::Point2;
@@ -149,22 +148,4 @@ fn order_crowded(task: &Task<'_>, graph: &Graph, tolerance: f64, positions: &mut
             }
         }
     }
-}
-
-/// Where crossings lie by linear interpolation between the samples, for data without a field.
-pub(crate) fn place_linear(
-    lattice: &Lattice,
-    levels: &[f64],
-    graph: &Graph,
-    positions: &mut Vec<Point2>,
-) {
-    const LEAST: f64 = 1e-9;
-    positions.clear();
-    positions.extend(graph.nodes.iter().map(|node| {
-        let (from, to) = node.ends(lattice);
-        let level = levels[usize::from(node.level)];
-        let t = (level - node.values[0]) / (node.values[1] - node.values[0]);
-        let t = if t.is_finite() { t.clamp(LEAST, 1.0 - LEAST) } else { 0.5 };
-        from + (to - from) * t
-    }));
 }
