@@ -65,6 +65,7 @@ impl Topology {
     /// them.
     pub(crate) fn find_faces(&mut self) {
         let (mut cycles, mut cycle_of) = self.walk();
+        self.bridge.extend(cycle_of.chunks_exact(2).map(|sides| sides[0] == sides[1]));
         self.name_faces(&mut cycles);
         self.components = cycles.iter().filter(|c| c.twice_area <= 0).count();
         if self.components > 1 {

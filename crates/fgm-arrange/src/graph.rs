@@ -11,7 +11,8 @@ const NONE: u32 = u32::MAX;
 const LIST: u32 = 1 << 31;
 
 /// The arcs of a noder as a graph: half-arcs around their nodes in order of angle, repeated arcs
-/// merged, bridges found. Half-arc `2 a` leaves the first end of arc `a`, `2 a + 1` its last.
+/// merged, bridges dropped where asked. Half-arc `2 a` leaves the first end of arc `a`, `2 a + 1`
+/// its last.
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     /// Where each node's half-arcs begin in `around`; their number is in `degree`.
@@ -24,7 +25,7 @@ pub(crate) struct Graph {
     labels: Vec<u32>,
     /// Where each list begins in `labels`, and the end.
     lists: Vec<u32>,
-    pub(crate) bridge: Vec<bool>,
+    bridge: Vec<bool>,
     /// For each half-arc the one that follows along the face to its left.
     next: Vec<u32>,
     /// For each half-arc its face's cycle.
@@ -52,8 +53,8 @@ impl Graph {
     pub(crate) fn build(&mut self, noder: &mut Noder, ranks: &[u32], keep_bridges: bool) {
         self.sort_around(noder);
         self.collect_labels(&mut noder.arcs, ranks);
-        self.find_bridges(&noder.arcs);
         if !keep_bridges {
+            self.find_bridges(&noder.arcs);
             self.drop_bridges();
         }
     }

@@ -72,7 +72,6 @@ impl<'a> Numbering<'a> {
     fn edge(&mut self, first: u32, out: &mut Topology) -> u32 {
         let (arcs, points) = (&self.noder.arcs[..], &self.noder.points[..]);
         out.edge_starts.push(out.points.len() as u32);
-        out.bridge.push(self.graph.bridge[first as usize / 2]);
         let labels = out.labels.len();
         out.label_starts.push(labels as u32);
         let own = self.graph.labels(&arcs[first as usize / 2]);

@@ -103,6 +103,7 @@ proptest! {
         for border in arrangement.faces().flat_map(|face| face.neighbours()).chain(outlines) {
             let edge = border.edge();
             let (with, sides) = (border.is_forward(), [edge.left(), edge.right()]);
+            prop_assert_eq!(edge.is_dangling(), edge.left() == edge.right());
             let [near, far] = if with { sides } else { [sides[1], sides[0]] };
             prop_assert_eq!((border.face(), border.neighbour()), (near, far));
             let labels: Vec<_> = border.labels().map(|l| (l.label, l.forward == with)).collect();

@@ -67,7 +67,7 @@ fn i_overlay(lines: &[Vec<Point2>], runs: usize) -> Report {
         lines.iter().map(|line| line.iter().map(|p| [p.x, p.y]).collect()).collect();
     let (seconds, shapes) = fastest(runs, || {
         let rule = FillRule::NonZero;
-        square.slice_custom_by_as::<i64>(&paths, rule, Default::default(), Solver::AUTO)
+        square.slice_custom_by(&paths, rule, Default::default(), Solver::AUTO)
     });
     let twice = |ring: &Vec<[f64; 2]>| -> f64 {
         let next = ring.iter().cycle().skip(1);
