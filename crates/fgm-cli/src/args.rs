@@ -1,5 +1,6 @@
 //! The command line.
 
+mod calibrate;
 mod check;
 
 use std::path::PathBuf;
@@ -7,6 +8,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use fgm::{ColorCount, FaceFill, Pattern, Strategy, Zipper};
 
+pub(crate) use calibrate::{
+    Bead, CalibrateArguments, Calibration, FoamingPrint, Inputs, LeadPrint, PrintArguments,
+    ProfileArguments, Solve, TransitionPrint,
+};
 pub(crate) use check::CheckArguments;
 
 /// Slices graded designs, whose material changes through the part, into G-code.
@@ -33,6 +38,8 @@ pub(crate) enum Command {
     Slice(Box<SliceArguments>),
     /// Tell what a machine really lays down from G-code, and what is wrong with it.
     Check(Box<CheckArguments>),
+    /// Measure a machine: write prints for it, and turn what was measured into its profile.
+    Calibrate(Box<CalibrateArguments>),
     /// Tell what a design holds: size, volume, materials, layers, warnings.
     Inspect(InspectArguments),
     /// List the built-in printers, or print one's profile.

@@ -18,6 +18,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match arguments.command {
         Command::Slice(slice) => commands::slice::run(&slice),
+        Command::Calibrate(calibrate) => commands::calibrate::run(&calibrate),
         Command::Check(check) => commands::check::run(&check),
         Command::Inspect(inspect) => commands::inspect::run(&inspect),
         Command::Printers(printers) => commands::printers::run(&printers),

@@ -219,7 +219,7 @@ pub(crate) fn unknown_printer(name: &str) -> Failure {
 }
 
 /// The command line as the user would type it again.
-fn command_line() -> String {
+pub(crate) fn command_line() -> String {
     let quoted = std::env::args().map(|word| {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%".contains(c);
         if !word.is_empty() && word.chars().all(plain) {
