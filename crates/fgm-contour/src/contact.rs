@@ -189,7 +189,17 @@ fn count_sort<K: IntoIterator<Item = usize>>(
 impl Contacts {
     /// Calls `found` once with the indices of every such pair. Each strip of the plane is swept
     /// along x, every run of segments compared with those that are still open there.
-    pub(crate) fn find(&mut self, segments: &[Segment], mut found: impl FnMut(usize, usize)) {
+    pub(crate) fn find(&mut self, segments: &[Segment], found: impl FnMut(usize, usize)) {
+        self.find_by(segments, |k, l| segments[k].meets(&segments[l]), found);
+    }
+
+    /// The same for another idea of what meets; asked of pairs of segments whose boxes do.
+    pub(crate) fn find_by(
+        &mut self,
+        segments: &[Segment],
+        meets: impl Fn(usize, usize) -> bool,
+        mut found: impl FnMut(usize, usize),
+    ) {
         split(segments, &mut self.runs);
         let runs = &self.runs;
         let (columns, strips) = divide(runs);
@@ -216,7 +226,7 @@ impl Contacts {
                     let old = &runs[o as usize];
                     // In several strips together, they meet in the lowest of those.
                     if old.meets(new) && strips.of(new.low.y.max(old.low.y)) == strip {
-                        compare(segments, old, new, &mut found);
+                        compare(segments, (old, new), &meets, &mut found);
                     }
                     true
                 });
@@ -233,10 +243,15 @@ impl Contacts {
     }
 }
 
-fn compare(segments: &[Segment], a: &Run, b: &Run, found: &mut impl FnMut(usize, usize)) {
-    for (k, s) in a.reaching(segments, b) {
-        for (l, t) in b.reaching(segments, a) {
-            if s.meets(t) {
+fn compare(
+    segments: &[Segment],
+    (a, b): (&Run, &Run),
+    meets: &impl Fn(usize, usize) -> bool,
+    found: &mut impl FnMut(usize, usize),
+) {
+    for (k, _) in a.reaching(segments, b) {
+        for (l, _) in b.reaching(segments, a) {
+            if meets(k, l) {
                 found(k, l);
             }
         }

@@ -6,10 +6,11 @@
 mod common;
 
 use common::{area, assert_valid, turned_box};
-use fgm_contour::{ContourError, ContourOptions, Contourer, outline};
+use fgm_contour::{ContourError, ContourOptions, Contourer, isolines, outline};
 use fgm_core::{Bounds2, Interval, PlanarField, Point2, Polygon};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn window(half: f64) -> Bounds2 {
     Bounds2::new(Point2::splat(-half), Point2::splat(half))
@@ -212,6 +213,45 @@ impl<F: Fn(Point2) -> f64 + Sync> PlanarField for Bounded<F> {
     }
 }
 
+/// Counts how often it is asked.
+struct Counted<F>(F, AtomicUsize);
+impl<F: PlanarField> PlanarField for Counted<F> {
+    fn eval(&self, p: Point2) -> f64 {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.eval(p)
+    }
+    fn bounds(&self, cell: &Bounds2) -> Interval {
+        self.0.bounds(cell)
+    }
+}
+
+/// Halving the cells doubles the evaluations where there are bounds, and quadruples them at most
+/// where there are none.
+#[test]
+fn the_cost_follows_the_length_of_the_line() {
+    let flower = |p: Point2| 0.4 * (p.length() - 30.0 - 2.0 * (9.0 * p.to_angle()).sin());
+    let count = |field: &dyn Fn(&ContourOptions) -> usize, cell: f64| {
+        let options = ContourOptions { cell, sag: 0.0, ..ContourOptions::default() };
+        field(&options) as f64
+    };
+    let bounded = |options: &ContourOptions| {
+        let counted = Counted(Bounded(flower), AtomicUsize::new(0));
+        outline(&counted, &window(40.0), options).unwrap();
+        counted.1.into_inner()
+    };
+    let unbounded = |options: &ContourOptions| {
+        let counted = Counted(flower, AtomicUsize::new(0));
+        outline(&counted, &window(40.0), options).unwrap();
+        counted.1.into_inner()
+    };
+    for cell in [0.25, 0.125, 0.0625] {
+        let growth = count(&bounded, cell) / count(&bounded, 2.0 * cell);
+        assert!((1.7..2.4).contains(&growth), "{growth} at {cell}");
+        let growth = count(&unbounded, cell) / count(&unbounded, 2.0 * cell);
+        assert!((3.0..4.1).contains(&growth), "{growth} at {cell}");
+    }
+}
+
 #[test]
 fn false_bounds_are_told() {
     struct Liar;
@@ -342,5 +382,32 @@ proptest! {
         let found = outline(&field, &window(10.0), &options).unwrap();
         prop_assert_eq!(found.len(), 1);
         prop_assert!((area(&found) - 1.0).abs() < 0.05, "{}", area(&found));
+    }
+
+    /// Without bounds: hills and hollows two samples wide, each in a place of its own.
+    #[test]
+    fn every_loop_two_samples_wide_is_found(
+        places in prop::collection::btree_map((-4..5i32, -4..5i32), (any::<bool>(), 0.0..1.0f64, 0.0..1.0f64), 1..20),
+        half in 0.5..0.9f64,
+    ) {
+        // Discs of two cells' diagonal and more hold a sample, the space between them too.
+        let options = ContourOptions { sharp: false, ..ContourOptions::default() };
+        let radius = half.max(2.0_f64.sqrt() * options.cell);
+        let discs: Vec<(Point2, f64)> = places
+            .iter()
+            .map(|(&(i, j), &(hill, x, y))| {
+                let at = Point2::new(f64::from(i) * 4.0 + x, f64::from(j) * 4.0 + y);
+                (at, if hill { 1.0 } else { -1.0 })
+            })
+            .collect();
+        let field = |p: Point2| {
+            let one = |&(at, sign): &(Point2, f64)| sign * (radius - p.distance(at)).max(0.0);
+            discs.iter().map(one).sum::<f64>()
+        };
+        let level = 0.25 * radius;
+        let found = isolines(&field, &window(20.0), &[level, -level], &options).unwrap();
+        let hills = discs.iter().filter(|d| d.1 > 0.0).count();
+        prop_assert_eq!((found[0].rings.len(), found[1].rings.len()), (hills, discs.len() - hills));
+        prop_assert!(found.iter().all(|l| l.lines.is_empty()));
     }
 }

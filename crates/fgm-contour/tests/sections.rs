@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{area, assert_valid, both, box_mesh, soup};
+use common::{area, assert_uncrossed, assert_valid, both, box_mesh, soup};
 use fgm_contour::{ContourError, MeshSlicer, SectionWarning};
 use fgm_core::{Point2, Point3, Polygon, TriangleMesh};
 use proptest::prelude::*;
@@ -137,6 +137,19 @@ fn shells_that_share_a_face_become_one() {
     let found = clean(&slicer(&both(a, &b)), 1.0);
     assert_eq!(found.len(), 1);
     assert!((area(&found) - 128.0).abs() < 1e-4);
+}
+
+/// The plane cuts the diagonals of both boxes' sides where the boxes cross: the rings cross at
+/// vertices that they have in common, and no edge crosses another.
+#[test]
+fn rings_that_cross_at_common_vertices_are_united() {
+    for corner in [1.0, -1.0] {
+        let a = box_mesh(Point3::ZERO, Point3::ONE, 0.0);
+        let b = box_mesh(Point3::new(corner, 1.0, 0.0), Point3::ONE, 0.0);
+        let found = clean(&slicer(&both(a, &b)), 0.0);
+        assert_eq!(found.len(), 1);
+        assert!((area(&found) - 7.0).abs() < 1e-4, "{}", area(&found));
+    }
 }
 
 #[test]
@@ -290,6 +303,50 @@ proptest! {
                 * (at(w[0] + inset) + 4.0 * at(w[0].midpoint(w[1])) + at(w[1]))
         }).sum();
         prop_assert!((volume - mesh.volume()).abs() < 1e-5, "{volume} {}", mesh.volume());
+    }
+
+    /// Whatever is done to a mesh: sections are closed, simple, nested rings.
+    #[test]
+    fn damaged_meshes_give_closed_rings(
+        boxes in prop::collection::vec((-4..5i32, -4..5i32, -2..3i32, 1..4i32), 1..3),
+        damage in prop::collection::vec((0..5u8, any::<prop::sample::Index>(), -3..4i32, -3..4i32), 0..8),
+        gap in prop_oneof![Just(0.0), Just(0.1), Just(5.0)],
+    ) {
+        let mut mesh = TriangleMesh::default();
+        for &(x, y, h, half) in &boxes {
+            let center = Point3::new(x.into(), y.into(), h.into());
+            mesh = both(mesh, &box_mesh(center, Point3::splat(half.into()), 0.0));
+        }
+        for (kind, which, x, y) in damage {
+            if mesh.triangles.is_empty() {
+                continue;
+            }
+            let t = which.index(mesh.triangles.len());
+            match kind {
+                0 => drop(mesh.triangles.swap_remove(t)),
+                1 => mesh.triangles[t].swap(0, 1),
+                2 => mesh.triangles.push(mesh.triangles[t]),
+                3 => mesh.triangles[t][0] = mesh.triangles[t][1],
+                // A fin, and a vertex moved: edges of three triangles, faces that cut each other.
+                _ => {
+                    let v = which.index(mesh.vertices.len());
+                    mesh.vertices[v] += Point3::new(x.into(), y.into(), 0.5);
+                    let [a, b, _] = mesh.triangles[t];
+                    mesh.triangles.push([a, b, v as u32]);
+                }
+            }
+        }
+        let slicer = slicer(&mesh).with_gap(gap);
+        for k in -10..=10 {
+            let section = slicer.section(f64::from(k) / 2.0);
+            assert_uncrossed(&section.polygons, 1e-5);
+            for warning in &section.warnings {
+                if let SectionWarning::GapClosed { gap: closed, .. } = warning {
+                    prop_assert!(*closed <= gap);
+                }
+            }
+            prop_assert!(section.warnings.is_empty() || slicer.issues().open_edges.any());
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use crate::contact::{Contacts, Segment};
+use crate::contact::{Contacts, Segment, side};
 use crate::nest;
 use crate::nest::{assemble, containing};
 use clipper2_rust::core::{FillRule, Path64, Point64};
@@ -39,14 +39,44 @@ pub(crate) struct Meeting {
 }
 
 impl Meeting {
-    /// Whether any two edges of the rings cross or touch, other than neighbours at their joint.
+    /// Whether any two edges of the rings cross or touch, other than at a vertex of both; or
+    /// rings cross at one.
     fn any(&mut self, rings: &[Ring]) -> bool {
         self.segments.clear();
+        // The tag leads to the edge that follows.
         for ring in rings {
-            self.segments.extend(ring.edges().map(|(a, b)| Segment { a, b, tag: 0 }));
+            let first = self.segments.len() as u32;
+            let last = first + ring.points.len() as u32 - 1;
+            let tag = |k: u32| if first + k == last { first } else { first + k + 1 };
+            let edges = ring.edges().zip(0..).map(|((a, b), k)| Segment { a, b, tag: tag(k) });
+            self.segments.extend(edges);
         }
-        self.contacts.any(&self.segments)
+        let segments = &self.segments;
+        let meets = |k: usize, l: usize| {
+            let (s, t) = (&segments[k], &segments[l]);
+            s.meets(t) || (s.b == t.b && cross_at_end(segments, s, t))
+        };
+        let mut any = false;
+        self.contacts.find_by(segments, meets, |_, _| any = true);
+        any
     }
+}
+
+/// Whether two lines that go on from the common end of two of their segments cross there.
+fn cross_at_end(segments: &[Segment], s: &Segment, t: &Segment) -> bool {
+    let at = s.b;
+    let [s_next, t_next] = [s, t].map(|s| segments[s.tag as usize].b);
+    let between = |p: Point2| lies_between(at, s.a, s_next, p);
+    between(t.a) != between(t_next)
+}
+
+/// Whether `p` lies in the angle around `at` from `from` anticlockwise to `to`.
+fn lies_between(at: Point2, from: Point2, to: Point2, p: Point2) -> bool {
+    let turn = side(at, from, to);
+    if turn < 0.0 {
+        return !(side(at, to, p) >= 0.0 && side(at, p, from) >= 0.0);
+    }
+    side(at, from, p) > 0.0 && (turn == 0.0 || side(at, p, to) > 0.0)
 }
 
 fn unite_crossing(rings: &[Ring]) -> Vec<Ring> {

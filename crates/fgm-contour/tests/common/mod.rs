@@ -54,6 +54,29 @@ pub(crate) fn assert_valid(polygons: &[Polygon]) {
     }
 }
 
+/// Fails unless rings are closed, rightly oriented, and cross neither themselves nor each other by
+/// more than `rounding`. They may touch.
+pub(crate) fn assert_uncrossed(polygons: &[Polygon], rounding: f64) {
+    let rings = || polygons.iter().flat_map(Polygon::rings);
+    let edges: Vec<(Point2, Point2)> = rings().flat_map(Ring::edges).collect();
+    for (k, &(a, b)) in edges.iter().enumerate() {
+        assert!(a != b, "an edge without length at {a}");
+        for &(c, d) in &edges[k + 1..] {
+            let off = |p: Point2, q: Point2, r: Point2| cross(p, q, r) / p.distance(q);
+            let through = |p: Point2, q: Point2, r: Point2, s: Point2| {
+                let (r, s) = (off(p, q, r), off(p, q, s));
+                r.abs().min(s.abs()) > rounding && (r > 0.0) != (s > 0.0)
+            };
+            assert!(!(through(a, b, c, d) && through(c, d, a, b)), "{a} {b} crosses {c} {d}");
+        }
+    }
+    assert!(rings().all(|r| r.points.len() > 2));
+    for polygon in polygons {
+        assert!(polygon.outer.area() > 0.0, "an outer ring runs clockwise");
+        assert!(polygon.holes.iter().all(|h| h.area() < 0.0), "a hole runs anticlockwise");
+    }
+}
+
 pub(crate) fn area(polygons: &[Polygon]) -> f64 {
     polygons.iter().map(Polygon::area).sum()
 }
