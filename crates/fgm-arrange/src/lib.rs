@@ -48,8 +48,8 @@
 //!
 //! 1. Points are rounded to a lattice (1e-6 mm), where every predicate can be answered exactly:
 //!    in `f64` with an error bound, in 128-bit integers where that does not decide.
-//! 2. Lines are cut into short monotone pieces; a packed tree of their boxes gives the pairs of
-//!    segments that may touch.
+//! 2. Lines are cut into short monotone pieces; a packed tree of their boxes, eight in a block,
+//!    gives the pairs of segments that may touch.
 //! 3. Crossings are snap-rounded: lines are led through the centres of the lattice's *hot pixels*,
 //!    but only those lines that must move. What needs no rounding does not change, so arranging
 //!    the result again changes nothing.
