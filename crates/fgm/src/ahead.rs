@@ -2,19 +2,21 @@
 
 use fgm_core::{Mixture, Motion};
 use fgm_gcode::{GcodeError, Lead, Machine, MachineKind, State, Step};
-use fgm_sim::{Compensate, CompensateOptions};
+use fgm_sim::{Compensate, CompensateOptions, Preheat};
 
 use crate::{report::DepositReport, settings::Settings};
 
-/// The look-ahead alone, or commands chosen for the deposit.
+/// The look-ahead alone, or commands chosen for the deposit, or temperatures told in time.
 pub(crate) enum Ahead {
     Lead(Lead),
+    Preheat(Box<Preheat>),
     Compensate { enabled: bool, compensate: Box<Compensate> },
 }
 
 impl Ahead {
     /// What a machine needs: on a mixing machine with a transition the commands are chosen, or the
-    /// error of the look-ahead alone is measured; else there is the look-ahead.
+    /// error of the look-ahead alone is measured; a foaming filament whose nozzle's rates are named
+    /// is heated in time; else there is the look-ahead.
     pub(crate) fn new(
         machine: &Machine,
         settings: &Settings,
@@ -22,6 +24,9 @@ impl Ahead {
         palette: &[Mixture],
         states: &[State],
     ) -> Self {
+        if let Some(preheat) = Preheat::of(machine, lead, states) {
+            return Self::Preheat(Box::new(preheat));
+        }
         let mixing = machine.kind == MachineKind::Mixing;
         let Some(options) = CompensateOptions::of(machine).filter(|_| mixing) else {
             return Self::Lead(Lead::with_volume(machine, lead));
@@ -47,6 +52,7 @@ impl Ahead {
     ) -> Result<(), GcodeError> {
         match self {
             Self::Lead(lead) => lead.push(motion, emit),
+            Self::Preheat(preheat) => preheat.push(motion, emit),
             Self::Compensate { compensate, .. } => compensate.push(motion, emit),
         }
     }
@@ -58,6 +64,7 @@ impl Ahead {
     ) -> Result<Option<DepositReport>, GcodeError> {
         match self {
             Self::Lead(lead) => lead.finish(emit).map(|()| None),
+            Self::Preheat(preheat) => preheat.finish(emit).map(|()| None),
             Self::Compensate { enabled, compensate } => {
                 let done = compensate.finish(emit)?;
                 Ok(DepositReport::new(enabled, &done))

@@ -157,7 +157,7 @@ fn options(
     if let Some(transition) = arguments.transition {
         options.model.transition = transition;
     }
-    options.model.thermal = arguments.thermal;
+    options.model.thermal = arguments.thermal.or(options.model.thermal);
     let index = |layer: usize| u32::try_from(layer - 1).unwrap_or(u32::MAX);
     if let Some((first, last)) = arguments.layers {
         options.layers = index(first)..=index(last);

@@ -1,3 +1,5 @@
+use fgm_core::Role;
+
 mod bed;
 #[cfg(feature = "serde")]
 mod builtin;
@@ -153,6 +155,14 @@ impl Machine {
         } else {
             1.0
         }
+    }
+
+    /// The speed of a role's beads that take so much filament a mm (mm²), mm/s: the profile's, no
+    /// more than the first layer's on that layer, slowed to the greatest flow.
+    pub fn bead_speed(&self, role: Role, fed: f64, first_layer: bool) -> f64 {
+        let usual = self.speed.of(role);
+        let speed = if first_layer { usual.min(self.speed.first_layer) } else { usual };
+        self.max_flow.map_or(speed, |most| speed.min(most / fed.max(f64::MIN_POSITIVE)))
     }
 
     /// Section of the filament, mm².

@@ -184,6 +184,12 @@ part!(
         step: f64 = 1.0,
         /// Whether the flow is told by `M221` in place of being folded into E.
         flow_command: bool = false,
+        /// How fast the nozzle heats, °C/s. With this or `cooling` the temperatures go out early by
+        /// the time they take, and the flow follows what is predicted; the lead is then the volume
+        /// between the melting and the tip alone.
+        heating: Option<f64> = None,
+        /// How fast it cools, °C/s.
+        cooling: Option<f64> = None,
     }
 );
 

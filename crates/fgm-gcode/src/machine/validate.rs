@@ -42,6 +42,9 @@ impl Machine {
         }
         let tools = f64::from(self.dialect.virtual_tools);
         check("dialect.virtual_tools", tools, &Range(0.0, 16.0, "0 to 16"))?;
+        let rate = Range(1e-3, 1e6, "0.001 °C/s or more");
+        option("foaming.heating", self.foaming.heating, &rate)?;
+        option("foaming.cooling", self.foaming.cooling, &rate)?;
         option("auger.flow", self.auger.flow, &POSITIVE)?;
         if self.auger.flow.is_none() && !self.auger.command.is_empty() {
             let expected = "the flow at one turn a second, for a command with a speed";

@@ -3,7 +3,7 @@ use std::io;
 use fgm_core::{Point2, Point3, Role, bead};
 
 use super::Writer;
-use crate::{Fixed, GcodeError, Move, WriterOptions};
+use crate::{Fixed, GcodeError, Move};
 
 /// What the beads have in common until one differs.
 #[derive(Clone, Debug)]
@@ -154,10 +154,7 @@ impl<W: io::Write> Writer<W> {
         bead.fed = bead.volume * bead.state_flow;
         let factor = self.machine.feed_factor();
         bead.units = bead.volume * bead.folded * factor / filament * Bead::E_UNITS;
-        bead.speed = speed(options, role, self.summary.layers <= 1);
-        if let Some(most) = options.max_flow {
-            bead.speed = bead.speed.min(most / bead.fed.max(f64::MIN_POSITIVE));
-        }
+        bead.speed = self.machine.bead_speed(role, bead.fed, self.summary.layers <= 1);
         bead.feedrate = feedrate(bead.speed);
         bead.turns = self.machine.auger.turns(bead.speed * bead.fed);
         bead.known = Some((width, role));
@@ -323,10 +320,4 @@ impl<W: io::Write> Writer<W> {
         }
         self.dialect.linear(&to, &mut self.text);
     }
-}
-
-/// The speed of a role's beads, mm/s.
-fn speed(options: &WriterOptions, role: Role, first_layer: bool) -> f64 {
-    let usual = options.speeds.of(role);
-    if first_layer { usual.min(options.speeds.first_layer) } else { usual }
 }

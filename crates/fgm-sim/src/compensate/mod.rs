@@ -13,6 +13,7 @@
 mod figures;
 mod misfit;
 mod planner;
+mod preheat;
 mod solve;
 mod track;
 mod tune;
@@ -25,6 +26,7 @@ use planner::Planner;
 use track::Told;
 
 pub use figures::Fit;
+pub use preheat::Preheat;
 
 /// The shortest segment where none is given, mm³: a few mm of an ordinary bead.
 const SHORTEST: f64 = 0.2;

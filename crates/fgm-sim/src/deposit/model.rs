@@ -26,15 +26,16 @@ impl Model {
         }
     }
 
-    /// By the machine's profile: its transition, else a delay of its dead volume; neither on a tool
-    /// changer.
+    /// By the machine's profile: its transition, else a delay of its dead volume, neither on a tool
+    /// changer; the rates of its heating and cooling, where a foaming filament has them.
     pub fn of(machine: &Machine) -> Self {
         let usual = Transition { delay: machine.dead_volume(), length: 0.0 };
         let transition = match machine.kind {
             MachineKind::ToolChanger => Transition::IDEAL,
             MachineKind::Mixing | MachineKind::Foaming => Transition::of(machine).unwrap_or(usual),
         };
-        Self::ideal(machine).with_transition(transition)
+        let thermal = Thermal::of(machine).filter(|_| machine.kind == MachineKind::Foaming);
+        Self { thermal, ..Self::ideal(machine).with_transition(transition) }
     }
 
     /// With another transition.

@@ -1,3 +1,5 @@
+use fgm_gcode::Machine;
+
 /// How a nozzle's temperature follows what it is told: at a limited rate while far from it, then
 /// as a first-order lag.
 ///
@@ -13,6 +15,17 @@ pub struct Thermal {
 }
 
 impl Thermal {
+    /// The rates that a profile names for its foaming filament's nozzle; none where it names none.
+    /// A rate that is left out is infinite.
+    pub fn of(machine: &Machine) -> Option<Self> {
+        let foaming = &machine.foaming;
+        (foaming.heating.is_some() || foaming.cooling.is_some()).then(|| Self {
+            heating: foaming.heating.unwrap_or(f64::INFINITY),
+            cooling: foaming.cooling.unwrap_or(f64::INFINITY),
+            time_constant: 0.0,
+        })
+    }
+
     /// The temperature `seconds` after `celsius`, with `told` commanded, °C.
     ///
     /// ```
