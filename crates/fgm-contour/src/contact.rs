@@ -234,13 +234,6 @@ impl Contacts {
             }
         }
     }
-
-    /// Whether any two segments cross or touch.
-    pub(crate) fn any(&mut self, segments: &[Segment]) -> bool {
-        let mut any = false;
-        self.find(segments, |_, _| any = true);
-        any
-    }
 }
 
 fn compare(
@@ -264,6 +257,12 @@ mod tests {
 
     fn segment(s: [f64; 4]) -> Segment {
         Segment { a: Point2::new(s[0], s[1]), b: Point2::new(s[2], s[3]), tag: 0 }
+    }
+
+    fn any(segments: &[Segment]) -> bool {
+        let mut any = false;
+        Contacts::default().find(segments, |_, _| any = true);
+        any
     }
 
     #[test]
@@ -295,7 +294,7 @@ mod tests {
                 if flip >= 4 {
                     pair.swap(0, 1);
                 }
-                assert_eq!(Contacts::default().any(&pair), expected, "{name}, turned {flip}");
+                assert_eq!(any(&pair), expected, "{name}, turned {flip}");
             }
         }
     }

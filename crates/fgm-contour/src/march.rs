@@ -15,6 +15,25 @@ pub(crate) fn class_of(value: f64, levels: &[f64]) -> u16 {
     }
 }
 
+/// The class of a value that is probably at most two classes off another, which is then found
+/// without a branch.
+pub(crate) fn class_near(class: u16, value: f64, levels: &[f64]) -> u16 {
+    let k = usize::from(class);
+    let below = |k: usize| u16::from(value < levels.get(k).copied().unwrap_or(f64::NEG_INFINITY));
+    let above = |k: usize| u16::from(value >= levels.get(k).copied().unwrap_or(f64::INFINITY));
+    let fall = below(k.wrapping_sub(1)) + below(k.wrapping_sub(2));
+    let class = (class + above(k) + above(k + 1) - fall).min(levels.len() as u16);
+    let (lower, upper) = range_of(class, levels);
+    if value >= lower && value < upper { class } else { class_of(value, levels) }
+}
+
+/// The values of a class: from the first, below the second.
+pub(crate) fn range_of(class: u16, levels: &[f64]) -> (f64, f64) {
+    let class = usize::from(class);
+    let lower = if class == 0 { f64::NEG_INFINITY } else { levels[class - 1] };
+    (lower, levels.get(class).copied().unwrap_or(f64::INFINITY))
+}
+
 /// A run of cells in one row: the samples below and above it, one more than cells.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CellRow<'a> {
@@ -58,12 +77,11 @@ impl Marcher {
     /// Adds the crossings and segments of a run of cells.
     pub(crate) fn run(&mut self, row: &CellRow<'_>, levels: &[f64], graph: &mut Graph) {
         let mut left: Option<u32> = None;
-        let (low, high) = (row.lower_class, row.upper_class);
-        let cells = low.len().min(high.len()).saturating_sub(1);
-        for c in 0..cells {
-            let classes = [low[c], low[c + 1], high[c + 1], high[c]];
-            let first = classes[0];
-            let uniform = first == classes[1] && first == classes[2] && first == classes[3];
+        let pairs = row.lower_class.windows(2).zip(row.upper_class.windows(2)).enumerate();
+        for (c, (low, high)) in pairs {
+            let classes = [low[0], low[1], high[1], high[0]];
+            let [c0, c1, c2, c3] = classes;
+            let uniform = (c0 ^ c1) | (c0 ^ c2) | (c0 ^ c3) == 0;
             left = if uniform || classes.contains(&NAN_CLASS) {
                 None
             } else {

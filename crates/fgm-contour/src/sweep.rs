@@ -1,7 +1,7 @@
 use crate::ContourError;
 use crate::graph::Graph;
 use crate::lattice::Lattice;
-use crate::march::{CellRow, Marcher, NAN_CLASS, class_of};
+use crate::march::{CellRow, Marcher, NAN_CLASS, class_near, range_of};
 use crate::prune::{BLOCK, Blocks};
 use fgm_core::{PlanarField, Point2};
 use std::ops::Range;
@@ -128,9 +128,20 @@ impl Sweep {
             let results = &self.results[at..at + span.len()];
             self.values[span.clone()].copy_from_slice(results);
             let mut nan = false;
+            let mut before = 0;
+            let mut range = range_of(before, task.levels);
             for (class, &value) in self.classes[span.clone()].iter_mut().zip(results) {
-                *class = class_of(value, task.levels);
-                nan |= *class == NAN_CLASS;
+                if value >= range.0 && value < range.1 {
+                    *class = before;
+                    continue;
+                }
+                *class = class_near(before, value, task.levels);
+                if *class == NAN_CLASS {
+                    nan = true;
+                } else {
+                    before = *class;
+                    range = range_of(before, task.levels);
+                }
             }
             if nan && !task.skip_nan {
                 let k = results.iter().position(|v| v.is_nan()).unwrap_or(0);

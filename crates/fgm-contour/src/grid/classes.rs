@@ -1,4 +1,4 @@
-use crate::march::class_of;
+use crate::march::{class_near, class_of, range_of};
 
 /// Samples classified together.
 pub(crate) const CHUNK: usize = 16;
@@ -141,17 +141,6 @@ impl Iterator for Places {
     }
 }
 
-/// The class of a number that is probably at most two classes off another, without a branch if so.
-fn class_near(class: u16, value: f64, levels: &[f64]) -> u16 {
-    let k = usize::from(class);
-    let below = |k: usize| u16::from(value < levels.get(k).copied().unwrap_or(f64::NEG_INFINITY));
-    let above = |k: usize| u16::from(value >= levels.get(k).copied().unwrap_or(f64::INFINITY));
-    let fall = below(k.wrapping_sub(1)) + below(k.wrapping_sub(2));
-    let class = class + above(k) + above(k + 1) - fall;
-    let (lower, upper) = range_of(class.min(levels.len() as u16), levels);
-    if value >= lower && value < upper { class } else { class_of(value, levels) }
-}
-
 /// Adds one to the class of each value that is at a level or above it.
 fn count(classes: &mut [u16], values: &[f64], level: f64) {
     let above = |(class, value): (&mut u16, &f64)| *class += u16::from(*value >= level);
@@ -159,13 +148,6 @@ fn count(classes: &mut [u16], values: &[f64], level: f64) {
         (Ok(classes), Ok(values)) => classes.iter_mut().zip(values).for_each(above),
         _ => classes.iter_mut().zip(values).for_each(above),
     }
-}
-
-/// The values of a class: from the first, below the second.
-fn range_of(class: u16, levels: &[f64]) -> (f64, f64) {
-    let class = usize::from(class);
-    let lower = if class == 0 { f64::NEG_INFINITY } else { levels[class - 1] };
-    (lower, levels.get(class).copied().unwrap_or(f64::INFINITY))
 }
 
 /// Whether all values lie in a range; counted without a branch, so that it is vectorised.
