@@ -9,6 +9,9 @@ use crate::Transition;
 /// How the solver ends: it has moved by less than this in one step, or taken so many.
 const STILL: f64 = 2e-5;
 
+/// A case that counts less is not worth its time.
+pub(super) const LEAST_WEIGHT: f64 = 1e-3;
+
 /// One way the machine may behave: its moving average in cells, and how much it counts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Case {
@@ -27,6 +30,15 @@ impl Case {
         let length = transition.length / cell;
         let end = 0.5 - transition.delay / cell;
         Self { end: split(end), start: split(end - length), length, weight }
+    }
+
+    /// The cells that the averages of rows end and begin in.
+    fn windows(&self, rows: &Range<usize>) -> (Range<usize>, Range<usize>) {
+        let moved = |by: isize| {
+            let at = |row: usize| (row as isize + by) as usize;
+            at(rows.start)..at(rows.end)
+        };
+        (moved(self.end.0), moved(self.start.0))
     }
 
     /// How many cells before its own the average of a cell reaches.
@@ -62,6 +74,7 @@ struct Scratch {
     prefix: Vec<f64>,
     whole: Vec<f64>,
     rest: Vec<f64>,
+    pull: Vec<f64>,
 }
 
 impl Problem {
@@ -87,9 +100,10 @@ impl Problem {
         for component in 0..self.components {
             let row = component * self.count..(component + 1) * self.count;
             prefix(&self.told[row.clone()], &mut self.scratch.prefix);
-            let (told, prefix) = (&self.told[row.clone()], &self.scratch.prefix);
-            for j in self.rows.clone() {
-                let miss = deposit(case, told, prefix, j) - self.target[row.start + j];
+            let deposits =
+                deposits(case, &self.told[row.clone()], &self.scratch.prefix, &self.rows);
+            for (deposit, j) in deposits.zip(self.rows.clone()) {
+                let miss = deposit - self.target[row.start + j];
                 sum += self.weight[j] * miss * miss;
             }
         }
@@ -123,7 +137,7 @@ impl Problem {
 
     /// The gradient at `scratch.ahead`, for the free cells, into `scratch.rest`.
     fn gradient(&mut self, cases: &[Case]) {
-        let Scratch { ahead, prefix: sums, whole, rest } = &mut self.scratch;
+        let Scratch { ahead, prefix: sums, whole, rest, pull } = &mut self.scratch;
         rest.clear();
         rest.resize(self.count * self.components, 0.0);
         for component in 0..self.components {
@@ -133,18 +147,20 @@ impl Problem {
             prefix(ahead, sums);
             whole.clear();
             whole.resize(self.count + 1, 0.0);
-            for case in cases.iter().filter(|case| case.weight > 0.0) {
+            for case in cases.iter().filter(|case| case.weight > LEAST_WEIGHT) {
+                let (end, start) = case.windows(&self.rows);
                 let scale = case.weight / case.length;
-                for j in self.rows.clone() {
-                    let miss = deposit(case, ahead, sums, j) - target[j];
-                    let pull = scale * self.weight[j] * miss;
-                    let end = (j as isize + case.end.0) as usize;
-                    let start = (j as isize + case.start.0) as usize;
-                    whole[end] += pull;
-                    rest[end] += case.end.1 * pull;
-                    whole[start] -= pull;
-                    rest[start] -= case.start.1 * pull;
-                }
+                let wanted = target[self.rows.clone()].iter().zip(&self.weight[self.rows.clone()]);
+                pull.clear();
+                pull.extend(
+                    deposits(case, ahead, sums, &self.rows)
+                        .zip(wanted)
+                        .map(|(deposit, (target, weight))| scale * weight * (deposit - target)),
+                );
+                add(&mut whole[end.clone()], pull, 1.0);
+                add(&mut rest[end], pull, case.end.1);
+                add(&mut whole[start.clone()], pull, -1.0);
+                add(&mut rest[start], pull, -case.start.1);
             }
             // A prefix sum takes in every cell before its end.
             let mut sum = 0.0;
@@ -206,14 +222,25 @@ fn prefix(values: &[f64], sums: &mut Vec<f64>) {
     }));
 }
 
-/// The mean over the average of cell `j`.
-#[inline]
-fn deposit(case: &Case, told: &[f64], sums: &[f64], j: usize) -> f64 {
-    let upto = |(whole, rest): (isize, f64)| {
-        let i = (j as isize + whole) as usize;
-        sums[i] + rest * told[i]
-    };
-    (upto(case.end) - upto(case.start)) / case.length
+/// The mean over the average of each row.
+fn deposits<'a>(
+    case: &Case,
+    told: &'a [f64],
+    sums: &'a [f64],
+    rows: &Range<usize>,
+) -> impl Iterator<Item = f64> + 'a {
+    let (end, start) = case.windows(rows);
+    let (end_rest, start_rest, length) = (case.end.1, case.start.1, case.length);
+    let upto_end = sums[end.clone()].iter().zip(&told[end]);
+    let upto_start = sums[start.clone()].iter().zip(&told[start]);
+    upto_end.zip(upto_start).map(move |((sum, last), (before, first))| {
+        ((sum + end_rest * last) - (before + start_rest * first)) / length
+    })
+}
+
+/// Adds multiples of values.
+fn add(to: &mut [f64], values: &[f64], factor: f64) {
+    to.iter_mut().zip(values).for_each(|(to, value)| *to += factor * value);
 }
 
 /// The nearest fractions: none negative, together 1 (the sorted thresholds of Duchi et al.).

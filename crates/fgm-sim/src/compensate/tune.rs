@@ -1,6 +1,6 @@
 //! How much to trust the measured transition: weights for the ways in which it may be off.
 
-use super::solve::{Case, Problem};
+use super::solve::{Case, LEAST_WEIGHT, Problem};
 use crate::Transition;
 
 /// What a corner of the uncertainty may come to on a single change, as a share of the squared
@@ -76,7 +76,7 @@ impl Tuned {
     pub(super) fn adapt(&mut self, shares: impl Iterator<Item = f64>) {
         for (case, share) in self.cases.iter_mut().zip(shares).skip(1) {
             let by = (share / GOAL).powf(GAIN).clamp(0.5, 2.0);
-            case.weight = (case.weight * by).clamp(1e-3, 100.0);
+            case.weight = (case.weight * by).clamp(LEAST_WEIGHT, 100.0);
         }
     }
 }
@@ -85,8 +85,7 @@ impl Tuned {
 fn weigh(cases: &mut [Case], multipliers: &[f64], plain: &[f64]) {
     for (case, (multiplier, error)) in cases.iter_mut().zip(multipliers.iter().zip(plain)) {
         let weight = multiplier * plain[0] / error.max(f64::MIN_POSITIVE);
-        // What hardly counts is not worth its time.
-        case.weight = if weight < 1e-3 { 0.0 } else { weight };
+        case.weight = weight.max(LEAST_WEIGHT);
     }
 }
 
