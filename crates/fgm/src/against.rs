@@ -39,11 +39,8 @@ pub(crate) fn pieces(
             let simple = |path: Path| path.simplified(settings.contour.resolution);
             paths.into_iter().map(|path| simple(path).in_color(band.first)).collect()
         };
-        let fills: Vec<_> = if job.split_faces {
-            faces.par_iter().map(fill).collect()
-        } else {
-            faces.iter().map(fill).collect()
-        };
+        // In parallel, so that no thread waits while another fills the last layer.
+        let fills: Vec<_> = faces.par_iter().map(fill).collect();
         Ok((fills.into_iter().flatten().collect(), faces.len()))
     })
 }

@@ -25,9 +25,6 @@ pub(crate) struct Job<'a> {
     /// How isolines of the material are traced.
     pub(crate) isolines: ContourOptions,
     pub(crate) inset: ClipperInset,
-    /// Whether the faces of one layer are filled in parallel: worth it only where there are fewer
-    /// layers than threads.
-    pub(crate) split_faces: bool,
 }
 
 /// A layer ready to be written.

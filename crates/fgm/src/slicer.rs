@@ -115,7 +115,7 @@ impl<'a> Slicer<'a> {
         placement::check(&part, &bed, &self.machine.name)?;
         let threads = pool.current_num_threads();
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
-        let job = self.job(&outliner, &palette, layers, range.len(), threads);
+        let job = self.job(&outliner, &palette, layers, threads);
 
         let mut offset = self.machine.bed.centering(&part);
         if range.start == 0 {
@@ -234,7 +234,7 @@ impl<'a> Slicer<'a> {
                 let most = self.machine.max_colors();
                 colors::auto_count(design, settings, outliner, most, &|count| {
                     let palette = colors::palette(count, design, settings, outliner)?;
-                    let job = self.job(outliner, &palette, layers, AUTO_LAYERS, 1);
+                    let job = self.job(outliner, &palette, layers, 1);
                     let mut pieces = Vec::new();
                     for index in spread(layers.count(), AUTO_LAYERS) {
                         pieces.extend(job.plan(index)?.pieces);
@@ -251,7 +251,6 @@ impl<'a> Slicer<'a> {
         outliner: &'j Outliner<'j>,
         palette: &'j Palette,
         layers: Layers,
-        in_range: usize,
         threads: usize,
     ) -> Job<'j> {
         let skins = &self.settings.skins;
@@ -264,7 +263,6 @@ impl<'a> Slicer<'a> {
             outlines: OutlineWindow::new(outliner, span.min(layers.count())),
             isolines: self.settings.isoline_options(),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
-            split_faces: in_range < 2 * threads,
         }
     }
 
