@@ -56,10 +56,16 @@ impl<'a> FieldSections<'a> {
         cuts
     }
 
-    /// The band in the middle of a stretch.
+    /// The band of a stretch between two cuts, which has one but for points where it touches a
+    /// boundary: asked for at two places, and where these differ at a third.
     fn band(&self, path: &[Point2], from: f64, to: f64) -> Option<Band> {
-        let middle = point_at(path, 0.5 * (from + to)).extend(self.z);
-        match self.material.mixture(middle) {
+        let at = |share: f64| self.band_at(point_at(path, from + share * (to - from)));
+        let (one, other) = (at(0.38), at(0.62));
+        if one == other { one } else { at(0.5).or(one).or(other) }
+    }
+
+    fn band_at(&self, p: Point2) -> Option<Band> {
+        match self.material.mixture(p.extend(self.z)) {
             Ok(mixture) => Some(self.palette.band(&mixture)),
             Err(error) => {
                 self.failure.get_or_init(|| error);
@@ -88,5 +94,26 @@ impl Sectioner<Band> for FieldSections<'_> {
             }
             from = to;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_that_touches_a_boundary_in_its_middle_keeps_its_colour() {
+        let source = "fgrade([\"0.5 - x*x/400\", \"0.5 + x*x/400\"], [\"a\", \"b\"]) { cube(20); }";
+        let loaded = fgm_design::parse_vcad(source, ".".as_ref(), &Default::default()).unwrap();
+        let material = loaded.design.fractions.as_ref();
+        let palette = Palette::new(2, 4).unwrap();
+        let sections = FieldSections::new(material, &palette, 0.0, 0.5, 1e-6);
+        let line = [Point2::new(-8.0, 0.0), Point2::new(8.0, 0.0)];
+        let mut spans = Vec::new();
+        sections.section(&line, &mut spans);
+        let beside = palette.band(&material.mixture(Point2::new(3.0, 0.0).extend(0.0)).unwrap());
+        assert!(spans.iter().all(|span| span.label == beside), "{spans:?}");
+        assert_eq!((spans[0].from, spans[spans.len() - 1].to), (0.0, 1.0));
+        assert_eq!(sections.finish(), Ok(()));
     }
 }
