@@ -1,5 +1,5 @@
-//! Contours of planar fields, grids and triangle meshes: rings and polylines, on the true curve,
-//! with sharp corners.
+//! Contours of planar fields, arrays and triangle meshes: rings, polylines and filled bands, on the
+//! true curve, with sharp corners.
 //!
 //! # Do I need this?
 //!
@@ -13,8 +13,11 @@
 //! |---|---|
 //! | the region where a field is negative | [`outline`] |
 //! | the lines at given levels of a field | [`isolines`], [`LevelLines`] |
-//! | the same for rows of samples | [`Grid`] |
-//! | layer after layer | [`Contourer`], which keeps its memory |
+//! | the regions between levels | [`isobands`], [`Band`] |
+//! | those lines closed along the window's edge | [`Contourer::below`] |
+//! | all of these layer after layer | [`Contourer`], which keeps its memory |
+//! | all of these for rows of samples and masks | [`Grid`], [`Sample`] |
+//! | grid after grid, or without a copy | [`GridContourer`], [`LineRef`] |
 //! | plane sections of a mesh | [`MeshSlicer`], [`Section`], [`MeshIssues`] |
 //! | rings to polygons | [`nest`] |
 //! | fewer vertices | [`simplify_ring`], [`simplify_line`], [`simplify_polygons`] |
@@ -44,6 +47,8 @@
 //!
 //! # How it works
 //!
+//! With fields:
+//!
 //! 1. A quadtree over the window drops the blocks that the field's bounds rule out (`prune`).
 //! 2. The rest is sampled band by band, each lattice point once (`sweep`), and marched through at
 //!    all levels in one visit to each cell, saddles by the asymptotic decider (`march`, `cases`).
@@ -55,6 +60,17 @@
 //!    corners are added (`refine`, `probe`). What leaves its cell is checked against all other
 //!    segments (`contact`) and taken back where it would touch one.
 //! 5. Vertices within the tolerance go, again checked (`simplify`).
+//!
+//! With grids:
+//!
+//! 1. Rows are classified sixteen samples at a time by how many levels they are at or above; where
+//!    all are in one class nothing more is looked at (`grid/classes`).
+//! 2. The other cells are visited once for all levels between their corners (`grid/sweep`).
+//!    Crossings join strands, of which few grow at a time (`grid/strands`), and strands lines.
+//!
+//! Bands go along lines and border from one to the other, so that neighbours share their lines to
+//! the last bit (`bands`). In grids without holes, what is around a ring is known from the
+//! crossing to the left of its first one, and no point is looked for in polygons.
 
 mod bands;
 mod cases;

@@ -183,13 +183,14 @@ fn numbers() -> impl Strategy<Value = Vec<f64>> {
     // Small integers: values at the level, plateaus and saddles without end.
     let whole = prop::collection::vec((-3..4i32).prop_map(f64::from), 42);
     let any = prop::collection::vec(-3.0..3.0f64, 42);
-    // Wide enough for several chunks, a hill or hollow in many places.
-    let wide = prop::collection::vec(-3.0..3.0f64, 40 * 5);
+    // Whole chunks of samples, one more and one less, and several; hills and hollows all over.
+    let wide = prop::sample::select(vec![15, 16, 17, 33, 40]);
+    let wide = wide.prop_flat_map(|columns| prop::collection::vec(-3.0..3.0f64, columns * 5));
     prop_oneof![whole, any, wide]
 }
 
 fn columns(values: &[f64]) -> usize {
-    if values.len() == 42 { 7 } else { 40 }
+    if values.len() == 42 { 7 } else { values.len() / 5 }
 }
 
 fn many_levels() -> impl Strategy<Value = Vec<f64>> {
