@@ -68,7 +68,11 @@ fn change(pieces: &[Piece]) -> f64 {
 fn the_plate_gives_the_dead_volume_and_the_sharp_change_lies_in_the_middle() {
     let place = Place::new();
     let truth = Transition { delay: 31.0, length: 0.0 };
-    place.done("calibrate lead --printer generic-mixing --size 60,40 -o plate.gcode");
+    let said = place.done("calibrate lead --printer generic-mixing --size 60,40 -o plate.gcode");
+    assert!(said.contains(" --printer generic-mixing -o mine.toml"), "{said}");
+    // The file says what printer it is for.
+    let checked = place.done("check plate.gcode");
+    assert!(checked.contains("printer   generic-mixing") && checked.contains("faults    none"));
     let machine = Machine::builtin("generic-mixing").unwrap();
     let pieces = place.printed("plate.gcode", &machine, truth);
     let middle = machine.bed.bounds().center().x;

@@ -196,6 +196,16 @@ fn bad_input_ends_with_2() {
     assert!(place.text("check --help").contains("Examples:"));
 }
 
+#[test]
+fn a_file_that_prints_nothing_is_told() {
+    let place = Place::new();
+    fs::write(place.path().join("empty.gcode"), "").unwrap();
+    let output = place.run("check empty.gcode");
+    let (said, warned) = (String::from_utf8(output.stdout), String::from_utf8(output.stderr));
+    assert!(output.status.success() && said.unwrap().contains("filament  0.0 mm"));
+    assert!(warned.unwrap().contains("nothing is printed"));
+}
+
 #[cfg(unix)]
 #[test]
 fn standard_input_is_read() {

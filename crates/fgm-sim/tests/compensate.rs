@@ -99,6 +99,51 @@ fn with_towers_next_to_nothing_is_left() {
     assert!(shares.iter().all(|share| *share <= 1.0), "{shares:?}");
 }
 
+/// As a snake, but each bead is to be what a gradient over all of it is there.
+fn toward_gradient(volumes: &[f64], layers: usize, parts: usize) -> Compensated {
+    let (options, palette) = (options(MEASURED), palette(16));
+    let states: Vec<State> = palette.iter().map(|m| State::plain(*m)).collect();
+    let mut compensate = Compensate::new(&options, &palette, &states);
+    let emit = |_| Ok::<(), Infallible>(());
+    let mut x = 0.0;
+    let begin =
+        [Motion::Layer { index: 0, z: 1.0, height: 1.0 }, Motion::Travel { to: Point2::ZERO }];
+    begin.iter().for_each(|motion| compensate.push(*motion, emit).unwrap());
+    for (i, (color, volume, role)) in snake(volumes, layers).into_iter().enumerate() {
+        compensate.push(Motion::Color(ColorId(color)), emit).unwrap();
+        // Odd layers come back.
+        let back = (i / volumes.len()) % 2 == 1;
+        for part in 0..parts {
+            let wanted: Vec<Mixture> = (0..160 / parts)
+                .map(|j| {
+                    let along = ((part * (160 / parts) + j) as f64 + 0.5) / 160.0;
+                    let along = if back { 1.0 - along } else { along };
+                    let share = (f64::from(color) + along) / 16.0;
+                    Mixture::from_weights(&[share, 1.0 - share]).unwrap()
+                })
+                .collect();
+            x += volume / parts as f64;
+            let bead = Motion::Extrude { to: Point2::new(x, 0.0), width: WIDTH, role };
+            compensate.push_toward(bead, &wanted, emit).unwrap();
+        }
+    }
+    compensate.finish(emit).unwrap()
+}
+
+#[test]
+fn a_gradient_within_the_colors_is_followed() {
+    let done = toward_gradient(&SLAB, 4, 1);
+    let shares = shares(&done);
+    // The plain lead leaves the steps of 16 colours.
+    assert!((done.fits[0].plain - 1.0 / 16.0 / 12.0_f64.sqrt()).abs() < 3e-3, "{:?}", done.fits);
+    assert!(shares[0] < 0.1, "{shares:?}");
+    assert!(shares.iter().all(|share| *share <= 1.0), "{shares:?}");
+    // How the beads are cut does not matter.
+    for (a, b) in toward_gradient(&SLAB, 4, 80).fits.iter().zip(&done.fits) {
+        assert!((a.told - b.told).abs() < 1e-4 && (a.plain - b.plain).abs() < 1e-4, "{a:?} {b:?}");
+    }
+}
+
 #[test]
 fn a_transition_too_short_to_shape_gives_the_plain_lead() {
     let print = snake(&SLAB, 2);

@@ -4,13 +4,13 @@ use fgm_core::{Mixture, Motion};
 use fgm_gcode::{GcodeError, Lead, Machine, MachineKind, State, Step};
 use fgm_sim::{Compensate, CompensateOptions, Preheat};
 
-use crate::{report::DepositReport, settings::Settings};
+use crate::{choice::Aim, report::DepositReport, settings::Settings};
 
 /// The look-ahead alone, or commands chosen for the deposit, or temperatures told in time.
 pub(crate) enum Ahead {
     Lead(Lead),
     Preheat(Box<Preheat>),
-    Compensate { enabled: bool, compensate: Box<Compensate> },
+    Compensate { enabled: bool, aim: Aim, compensate: Box<Compensate> },
 }
 
 impl Ahead {
@@ -41,19 +41,26 @@ impl Ahead {
             ..options
         };
         let compensate = Box::new(Compensate::new(&options, palette, states));
-        Self::Compensate { enabled, compensate }
+        Self::Compensate { enabled, aim: settings.aim(), compensate }
     }
 
-    /// Takes the next motion.
+    /// Whether it matters what the design is along each bead.
+    pub(crate) fn aims(&self) -> bool {
+        matches!(self, Self::Compensate { .. })
+    }
+
+    /// Takes the next motion, for a bead with what its deposit is to be where that is not its
+    /// colour: mixtures of equal shares of it.
     pub(crate) fn push(
         &mut self,
         motion: Motion,
+        wanted: &[Mixture],
         emit: impl FnMut(Step) -> Result<(), GcodeError>,
     ) -> Result<(), GcodeError> {
         match self {
             Self::Lead(lead) => lead.push(motion, emit),
             Self::Preheat(preheat) => preheat.push(motion, emit),
-            Self::Compensate { compensate, .. } => compensate.push(motion, emit),
+            Self::Compensate { compensate, .. } => compensate.push_toward(motion, wanted, emit),
         }
     }
 
@@ -65,9 +72,9 @@ impl Ahead {
         match self {
             Self::Lead(lead) => lead.finish(emit).map(|()| None),
             Self::Preheat(preheat) => preheat.finish(emit).map(|()| None),
-            Self::Compensate { enabled, compensate } => {
+            Self::Compensate { enabled, aim, compensate } => {
                 let done = compensate.finish(emit)?;
-                Ok(DepositReport::new(enabled, &done))
+                Ok(DepositReport::new(enabled, aim, &done))
             }
         }
     }

@@ -24,6 +24,15 @@ pub enum SectionBy {
     Faces,
 }
 
+/// What the deposit is to come near to where commands are chosen for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// The design's own mixtures along every bead.
+    Design,
+    /// The palette's colours of the paths.
+    Colors,
+}
+
 /// How many colours the palette has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColorCount {
@@ -83,6 +92,17 @@ impl FromStr for SectionBy {
     }
 }
 
+impl FromStr for Aim {
+    type Err = ChoiceError;
+    fn from_str(text: &str) -> Result<Self, ChoiceError> {
+        match text.trim() {
+            "design" => Ok(Self::Design),
+            "colors" => Ok(Self::Colors),
+            other => not(other, "what to aim at: design or colors"),
+        }
+    }
+}
+
 impl FromStr for ColorCount {
     type Err = ChoiceError;
     fn from_str(text: &str) -> Result<Self, ChoiceError> {
@@ -127,6 +147,15 @@ impl fmt::Display for SectionBy {
         f.write_str(match self {
             Self::Field => "field",
             Self::Faces => "faces",
+        })
+    }
+}
+
+impl fmt::Display for Aim {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Design => "design",
+            Self::Colors => "colors",
         })
     }
 }
@@ -176,7 +205,7 @@ macro_rules! as_text_or_number {
         }
     )*};
 }
-as_text_or_number!(Strategy, SectionBy, ColorCount, Zipper);
+as_text_or_number!(Strategy, SectionBy, Aim, ColorCount, Zipper);
 
 impl Serialize for Strategy {
     fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
@@ -185,6 +214,12 @@ impl Serialize for Strategy {
 }
 
 impl Serialize for SectionBy {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        s.collect_str(self)
+    }
+}
+
+impl Serialize for Aim {
     fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
         s.collect_str(self)
     }
@@ -217,6 +252,7 @@ mod tests {
         assert_eq!("2".parse(), Ok(Strategy::Against));
         assert_eq!("sectioned".parse(), Ok(Strategy::Sectioned));
         assert_eq!("faces".parse(), Ok(SectionBy::Faces));
+        assert_eq!("colors".parse(), Ok(Aim::Colors));
         assert_eq!("auto".parse(), Ok(ColorCount::Auto));
         assert_eq!("12".parse(), Ok(ColorCount::Count(12)));
         assert_eq!("15mm".parse(), Ok(Zipper::Length(15.0)));
@@ -225,6 +261,7 @@ mod tests {
             assert!(bad.parse::<Zipper>().is_err(), "{bad}");
         }
         assert!("0".parse::<ColorCount>().is_err());
+        assert!("palette".parse::<Aim>().is_err());
         assert!("three".parse::<Strategy>().is_err());
     }
 
@@ -232,6 +269,9 @@ mod tests {
     fn text_says_what_was_read() {
         for text in ["15mm", "0.05", "0"] {
             assert_eq!(text.parse::<Zipper>().unwrap().to_string(), text);
+        }
+        for text in ["design", "colors"] {
+            assert_eq!(text.parse::<Aim>().unwrap().to_string(), text);
         }
         for text in ["auto", "7"] {
             assert_eq!(text.parse::<ColorCount>().unwrap().to_string(), text);

@@ -8,13 +8,20 @@ use crate::settings::Settings;
 pub(crate) fn lines(settings: &Settings, machine: &Machine) -> Vec<String> {
     let mut lines = Vec::new();
     let settings = Settings { machine: toml::Table::new(), ..settings.clone() };
-    for (table, prefix) in
-        [(toml::Table::try_from(settings), ""), (toml::Table::try_from(machine), "machine.")]
-    {
-        // Both are plain tables of plain values: neither can fail to be one.
-        if let Ok(table) = table {
-            flatten(&table, prefix, &mut lines);
-        }
+    // A plain table of plain values: it cannot fail to be one.
+    if let Ok(table) = toml::Table::try_from(settings) {
+        flatten(&table, "", &mut lines);
+    }
+    lines.extend(machine_comments(machine));
+    lines
+}
+
+/// Every entry of a printer's profile as `machine.section.key = value`: comments for the head of a
+/// file, from which [`Head`](fgm_sim::Head) reads the profile again.
+pub fn machine_comments(machine: &Machine) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Ok(table) = toml::Table::try_from(machine) {
+        flatten(&table, "machine.", &mut lines);
     }
     lines
 }

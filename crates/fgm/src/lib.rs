@@ -60,10 +60,12 @@ mod settings;
 mod slicer;
 mod stages;
 mod stream;
+mod target;
 
-pub use choice::{ChoiceError, ColorCount, SectionBy, Strategy, Zipper};
+pub use choice::{Aim, ChoiceError, ColorCount, SectionBy, Strategy, Zipper};
 pub use colors::{material_colors, usual_colors};
 pub use error::SliceError;
+pub use head::machine_comments;
 pub use inspect::{Inspection, MaterialRange, inspect};
 pub use layers::{Layer, Layers};
 pub use machine::machine;

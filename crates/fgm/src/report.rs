@@ -3,7 +3,7 @@ use fgm_gcode::{Machine, MachineKind};
 use fgm_sim::{Compensated, Fit};
 use serde::Serialize;
 
-use crate::stages::StageSeconds;
+use crate::{choice::Aim, stages::StageSeconds};
 
 /// The figures of a slice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -45,8 +45,8 @@ pub struct Report {
     pub print_time_s: f64,
     /// Each input material: name, volume mm³, length of filament m, mass g.
     pub materials: Vec<MaterialUse>,
-    /// How far the deposit is predicted to be from the colours of the paths; none for a printer
-    /// without a transition.
+    /// How far the deposit is predicted to be from what it is to be; none for a printer without a
+    /// transition.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deposit: Option<DepositReport>,
     /// What the user should know.
@@ -55,13 +55,15 @@ pub struct Report {
     pub seconds: StageSeconds,
 }
 
-/// How far what is laid down is predicted to be from the colours of the part's paths, over their
-/// volume. An error is that of a fraction; of more than two materials it is the root of half the
+/// How far what is laid down is predicted to be from the design, or from the colours of the part's
+/// paths, over their volume. An error is that of a fraction; of more than two materials it is the root of half the
 /// summed squares.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DepositReport {
     /// Whether commands were chosen for the deposit; else they are those of the look-ahead alone.
     pub compensated: bool,
+    /// What the errors are from: the design's mixtures or the paths' colours.
+    pub aim: Aim,
     /// For the printer's transition.
     #[serde(flatten)]
     pub fit: DepositFit,
@@ -86,7 +88,7 @@ pub struct DepositFit {
 }
 
 impl DepositReport {
-    pub(crate) fn new(compensated: bool, done: &Compensated) -> Option<Self> {
+    pub(crate) fn new(compensated: bool, aim: Aim, done: &Compensated) -> Option<Self> {
         let fit = |fit: &Fit| DepositFit {
             delay_mm3: fit.transition.delay,
             change_mm3: fit.transition.length,
@@ -95,7 +97,7 @@ impl DepositReport {
         };
         let (first, off) = done.fits.split_first()?;
         let off = off.iter().map(fit).collect();
-        Some(Self { compensated, fit: fit(first), off, commands: done.commands })
+        Some(Self { compensated, aim, fit: fit(first), off, commands: done.commands })
     }
 }
 

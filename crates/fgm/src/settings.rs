@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::choice::{ColorCount, SectionBy, Strategy, Zipper};
+use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
 use fgm_contour::ContourOptions;
 use fgm_toolpath::{FaceFill, Pattern, SkirtOptions};
 
@@ -168,6 +168,8 @@ settings! {
     compensation: CompensationSettings {
         #[doc = "Whether to choose them; else the look-ahead alone moves them."]
         enabled: Option<bool> = None, "on where the printer has a transition", "true | false";
+        #[doc = "What the deposit is to come near to: the design along every bead, or the palette's colours of the paths."]
+        aim: Option<Aim> = None, "\"design\"; \"colors\" with a zipper", "design | colors";
         #[doc = "How far the transition's delay and length may be off without the deposit being worse than with the look-ahead alone."]
         uncertainty: f64 = 0.2, "0.2", "share";
         #[doc = "Least volume that a command lasts."]
@@ -186,6 +188,15 @@ impl Settings {
     /// Thickness of the first layer, mm.
     pub fn first_height(&self) -> f64 {
         self.layer.first_height.unwrap_or(self.layer.height)
+    }
+
+    /// What the deposit is to come near to: a zipper's colours interlock where the design has one
+    /// mixture, so they are kept.
+    pub(crate) fn aim(&self) -> Aim {
+        let zipper =
+            self.slice.strategy == Strategy::Sectioned && self.palette.zipper != Zipper::NONE;
+        let usual = if zipper { Aim::Colors } else { Aim::Design };
+        self.compensation.aim.unwrap_or(usual)
     }
 
     /// How the part's outlines are traced.

@@ -22,6 +22,7 @@ use crate::{
     settings::Settings,
     stages::{StageSeconds, timed},
     stream::Stream,
+    target::Target,
 };
 
 /// Slices a design for a machine.
@@ -267,7 +268,7 @@ impl<'a> Slicer<'a> {
     }
 
     fn stream<'s>(
-        &self,
+        &'s self,
         palette: &'s Palette,
         layers: Layers,
         part: &Bounds3,
@@ -296,6 +297,7 @@ impl<'a> Slicer<'a> {
             ahead: Ahead::new(machine, settings, lead, &mixtures, &states),
             writer: Writer::new(out, machine, &states, &options)?,
             purge: Purge::new(machine, settings, lead, &mixtures, &last, place)?,
+            target: Target::of(self.design, settings),
             layers,
             color: None,
             count: 0,
@@ -318,6 +320,7 @@ impl<'a> Slicer<'a> {
         let shapes = self.machine.transition.volumes().is_some();
         let compensation = &mut resolved.compensation;
         compensation.enabled = Some(compensation.enabled.unwrap_or(true) && shapes);
+        compensation.aim = Some(self.settings.aim());
         resolved.lead.volume = Some(lead);
         resolved
     }

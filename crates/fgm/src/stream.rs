@@ -8,7 +8,7 @@ use fgm_toolpath::LayerPlan;
 
 use crate::{
     ahead::Ahead, error::SliceError, job::PlannedLayer, layers::Layers, purge::Purge,
-    report::DepositReport,
+    report::DepositReport, target::Target,
 };
 
 /// What a print is written through.
@@ -16,6 +16,8 @@ pub(crate) struct Stream<'a> {
     pub(crate) ahead: Ahead,
     pub(crate) writer: Writer<&'a mut dyn Write>,
     pub(crate) purge: Option<Purge>,
+    /// What the deposit is to be, where commands are chosen for the design.
+    pub(crate) target: Option<Target<'a>>,
     pub(crate) layers: Layers,
     /// The colour that comes out at the end of what was pushed.
     pub(crate) color: Option<ColorId>,
@@ -35,7 +37,9 @@ impl Stream<'_> {
         let plan = LayerPlan::new(index, layer.top, layer.height, pieces)?;
         for motion in plan.motions(self.color) {
             let writer = &mut self.writer;
-            self.ahead.push(motion, |step| writer.push(step))?;
+            let target = self.target.as_mut().filter(|_| self.ahead.aims());
+            let wanted = target.map_or(&[][..], |target| target.along(&motion, layer.cut));
+            self.ahead.push(motion, wanted, |step| writer.push(step))?;
         }
         self.color = plan.last_color().or(self.color);
         self.count += 1;

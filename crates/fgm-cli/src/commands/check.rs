@@ -53,6 +53,9 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<(), Failure> {
         }
     };
     let report = report.map_err(fail)?;
+    if report.totals.beads == 0 {
+        show::warning(&format!("{}: nothing is printed in it", arguments.gcode.display()));
+    }
     if let (Some(mut file), Some(path)) = (json_file, json) {
         serde_json::to_writer_pretty(&mut file, &report)
             .map_err(io::Error::from)
@@ -226,11 +229,15 @@ fn describe(arguments: &CheckArguments, machine: Option<&Machine>, report: &Chec
         totals.extrude_mm, totals.travel_mm
     );
     let area = machine.map_or_else(|| Machine::default().filament_area(), Machine::filament_area);
-    let lengths = totals.filament_mm3.iter().map(|mm3| format!("{:.1}", mm3 / area));
+    let mut lengths: Vec<String> =
+        totals.filament_mm3.iter().map(|mm3| format!("{:.1}", mm3 / area)).collect();
+    if lengths.is_empty() {
+        lengths.push("0.0".into());
+    }
     let _ = writeln!(
         text,
         "filament  {} mm; {:.2} g in all, {:.2} g of it purge",
-        lengths.collect::<Vec<_>>().join(" + "),
+        lengths.join(" + "),
         report.mass_g,
         report.purge_g
     );

@@ -6,7 +6,7 @@ use std::{
 };
 
 use fgm::{
-    DepositReport, Report, Settings, Slicer,
+    Aim, DepositReport, Report, Settings, Slicer,
     design::{self, LoadOptions},
     gcode::Machine,
 };
@@ -275,11 +275,16 @@ fn summary(report: &Report, output: &Path) {
 fn deposit_summary(deposit: &DepositReport) -> String {
     let percent = |share: f64| 100.0 * share;
     let fit = &deposit.fit;
-    let plain = format!("{:.2} % rms error with the look-ahead alone", percent(fit.rms_plain));
+    let from = match deposit.aim {
+        Aim::Design => "the design",
+        Aim::Colors => "the paths' colours",
+    };
+    let plain = percent(fit.rms_plain);
     if deposit.compensated {
-        format!("deposit: {:.2} % rms error, {plain}", percent(fit.rms))
+        let rms = percent(fit.rms);
+        format!("deposit: {rms:.2} % rms from {from}, {plain:.2} % with the look-ahead alone")
     } else {
-        format!("deposit: {plain}")
+        format!("deposit: {plain:.2} % rms from {from} with the look-ahead alone")
     }
 }
 

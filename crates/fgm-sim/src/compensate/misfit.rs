@@ -10,7 +10,10 @@ use crate::Transition;
 pub(super) struct Wanted {
     /// What is extruded before its end, mm³; it begins where the one before ends.
     pub(super) end: f64,
+    /// On average.
     pub(super) mixture: Mixture,
+    /// Mean error of what is wanted within the stretch from its average.
+    pub(super) scatter: f64,
     /// How much it matters: 0 where nobody sees it.
     pub(super) weight: f64,
 }
@@ -37,7 +40,9 @@ pub(super) fn misfit(
         }
         let end = wanted.end.min(to);
         if wanted.weight > 0.0 {
-            sum += wanted.weight * deposit.error(wanted.mixture.fractions(), end);
+            let scatter = wanted.scatter * (end - deposit.at);
+            let error = deposit.error(wanted.mixture.fractions(), end);
+            sum += wanted.weight * (error + scatter);
         } else {
             deposit.error(wanted.mixture.fractions(), end);
         }
@@ -55,6 +60,25 @@ struct Deposit<'a> {
     /// leave next.
     front: usize,
     back: usize,
+}
+
+impl Wanted {
+    /// Takes in what follows it: another mixture upto the volume `end`, where this begins at
+    /// `start`.
+    pub(super) fn extend(&mut self, start: f64, end: f64, mixture: &Mixture) {
+        let share = (end - self.end) / (end - start);
+        let mut weights = [0.0; MAX_MATERIALS];
+        let mut apart = 0.0;
+        let both = self.mixture.fractions().iter().zip(mixture.fractions());
+        for (weight, (a, b)) in weights.iter_mut().zip(both) {
+            *weight = a + (b - a) * share;
+            apart += 0.5 * (b - a).powi(2);
+        }
+        let mean = Mixture::from_weights(&weights[..mixture.materials()]);
+        self.mixture = mean.unwrap_or(self.mixture);
+        self.scatter = (1.0 - share) * (self.scatter + share * apart);
+        self.end = end;
+    }
 }
 
 impl<'a> Deposit<'a> {
@@ -135,7 +159,7 @@ mod tests {
     }
 
     fn wanted(end: f64, share: f64, weight: f64) -> Wanted {
-        Wanted { end, mixture: told(0.0, share).mixture, weight }
+        Wanted { end, mixture: told(0.0, share).mixture, scatter: 0.0, weight }
     }
 
     #[test]
@@ -158,6 +182,18 @@ mod tests {
                 .sum();
             assert!((parts - expected).abs() < 1e-9, "{transition:?}: {parts} {expected}");
         }
+    }
+
+    #[test]
+    fn stretches_taken_together_keep_their_error() {
+        let told = [told(f64::NEG_INFINITY, 0.3)];
+        let apart = [wanted(1.0, 0.1, 1.0), wanted(3.0, 0.5, 1.0), wanted(3.5, 0.9, 1.0)];
+        let mut together = apart[0];
+        together.extend(0.0, 3.0, &apart[1].mixture);
+        together.extend(0.0, 3.5, &apart[2].mixture);
+        let error = |wanted: &[Wanted]| misfit(&Transition::IDEAL, &told, wanted, (0.0, 3.5));
+        let (found, expected) = (error(&[together]), error(&apart));
+        assert!((found - expected).abs() < 1e-12 && expected > 0.1, "{found} {expected}");
     }
 
     #[test]

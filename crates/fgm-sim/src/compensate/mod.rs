@@ -158,6 +158,23 @@ impl Compensate {
     pub fn push<E>(
         &mut self,
         motion: Motion,
+        emit: impl FnMut(Step) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.push_toward(motion, &[], emit)
+    }
+
+    /// As [`push`](Self::push), for a bead whose deposit is to be these mixtures, each over an
+    /// equal share of its length, rather than its colour's. With none it is the colour's.
+    ///
+    /// The colours still say what the plain lead tells. Mixtures along less than half a cell are
+    /// taken together, so that memory does not grow with their number.
+    ///
+    /// # Errors
+    /// Those of `emit`.
+    pub fn push_toward<E>(
+        &mut self,
+        motion: Motion,
+        wanted: &[Mixture],
         mut emit: impl FnMut(Step) -> Result<(), E>,
     ) -> Result<(), E> {
         if let Motion::Color(color) = motion {
@@ -168,7 +185,12 @@ impl Compensate {
         if let (Some(planner), Some(target)) =
             (&mut self.planner, self.targets.get(self.color.index()))
         {
-            planner.want(volume, *target, f64::from(u8::from(role.is_part())));
+            let weight = f64::from(u8::from(role.is_part()));
+            if wanted.is_empty() {
+                planner.want(volume, *target, weight);
+            }
+            let part = volume / wanted.len() as f64;
+            wanted.iter().for_each(|mixture| planner.want_about(part, *mixture, weight));
         }
         self.settle(false, &mut emit)
     }

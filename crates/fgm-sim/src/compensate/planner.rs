@@ -31,6 +31,9 @@ const SAME: f64 = 2e-3;
 /// Blends with the plain lead that are tried for a block, and how much of the rest each keeps.
 const BLENDS: usize = 4;
 const LESS: f64 = 0.95;
+/// Solutions that are tried for a block, and the share of one that is taken as it is.
+const TRIES: usize = 4;
+const ENOUGH: f64 = 0.3;
 
 /// Turns what is wanted along the volume into commands.
 ///
@@ -69,6 +72,17 @@ struct Choice {
     problem: Problem,
     /// The plan that the solver began with.
     begun: Vec<f64>,
+}
+
+/// A block whose commands are being chosen.
+struct Trial {
+    /// From here on there is the plain lead; the errors count up to the horizon. Volumes, mm³.
+    planned: f64,
+    horizon: f64,
+    /// What each corner's error may come to.
+    allowed: Vec<f64>,
+    /// The plan before.
+    before: Track,
 }
 
 impl Planner {
@@ -115,10 +129,30 @@ impl Planner {
         }
         self.total += volume;
         match self.wanted.last_mut() {
-            Some(last) if last.weight == weight && (weight == 0.0 || last.mixture == mixture) => {
+            Some(last)
+                if last.weight == weight
+                    && (weight == 0.0 || (last.mixture == mixture && last.scatter == 0.0)) =>
+            {
                 last.end = self.total;
             }
-            _ => self.wanted.push(Wanted { end: self.total, mixture, weight }),
+            _ => self.wanted.push(Wanted { end: self.total, mixture, scatter: 0.0, weight }),
+        }
+    }
+
+    /// The same for one of many mixtures that change little by little: those along less than half
+    /// a cell are taken together.
+    pub(super) fn want_about(&mut self, volume: f64, mixture: Mixture, weight: f64) {
+        let grain = 0.5 * self.options.transition.length / CELLS;
+        let end = self.total + volume;
+        if let [.., before, last] = self.wanted.as_mut_slice()
+            && volume.is_finite()
+            && last.weight == weight
+            && end - before.end <= grain
+        {
+            last.extend(before.end, end, &mixture);
+            self.total = end;
+        } else {
+            self.want(volume, mixture, weight);
         }
     }
 
@@ -185,41 +219,65 @@ impl Planner {
     }
 
     /// Takes the best plan for a block and the stretch beyond, or the best blend with the one
-    /// there is that keeps the whole no worse than the plain lead.
+    /// there is that keeps the whole no worse than the plain lead. Where that leaves little of it,
+    /// the corners that it fails in are given more weight and it is made anew.
     ///
     /// Gives the end of the block.
     fn choose(&mut self, choice: &mut Choice) -> f64 {
         let planned = self.cut(choice);
         let horizon = self.settled + choice.block + choice.known(&self.corners);
         self.follow_plain(planned);
-        let end = planned - choice.overlap;
         choice.fill(self, planned);
-        choice.problem.solve(&choice.tuned.cases, STEPS);
-        let errors = |planner: &Self, track: &Track| -> Vec<f64> {
-            let mut track = track.clone();
-            add_plain(&mut track, &planner.plain, (planned, horizon));
-            let part = (planner.settled, horizon.min(planner.total));
-            let error = |t: &Transition| misfit(t, track.told(), &planner.wanted, part);
-            planner.corners.iter().map(error).collect()
-        };
-        let pure: Vec<f64> = errors(self, &self.plain.before(planned));
-        let allowed = self.figures.allowance(&pure);
-        let mut before = self.told.after(self.settled - choice.pad as f64 * choice.cell);
-        let base = before.clone();
-        before.truncate(self.settled);
         choice.tuned.adapt(self.figures.shares());
+        let before = self.told.after(self.settled - choice.pad as f64 * choice.cell);
+        let trial = Trial {
+            planned,
+            horizon,
+            allowed: self.figures.allowance(&self.errors(
+                &self.plain.before(planned),
+                planned,
+                horizon,
+            )),
+            before,
+        };
+        let mut best = self.errors(&trial.before, planned, horizon)[0];
+        let mut chosen = None;
+        for _ in 0..TRIES {
+            choice.problem.solve(&choice.tuned.cases, STEPS);
+            let (share, found) = self.possible(choice, &trial);
+            if let Some((error, track)) = found.filter(|(error, _)| *error < best) {
+                best = error;
+                chosen = Some(track);
+            }
+            if share >= ENOUGH {
+                break;
+            }
+            let all = self.commands(choice, &trial, 1.0);
+            let now = self.errors(&all, planned, horizon);
+            choice.tuned.insist(now.iter().zip(&trial.allowed).map(|(now, most)| now / most));
+        }
+        if let Some(track) = chosen {
+            self.told = track;
+            self.planned = planned;
+        }
+        planned - choice.overlap
+    }
+
+    /// The greatest share of a solution, blended with the plan before it, that is possible and
+    /// keeps every corner within what it may come to: the commands with the measured error.
+    fn possible(&self, choice: &Choice, trial: &Trial) -> (f64, Option<(f64, Track)>) {
+        let Trial { planned, horizon, allowed, before } = trial;
+        let errors = |track: &Track| self.errors(track, *planned, *horizon);
         let mut share = 1.0;
         for turn in 0..BLENDS {
-            let track = self.commands(choice, &before, share, planned);
-            let now = errors(self, &track);
-            if now.iter().zip(&allowed).all(|(now, allowed)| now <= allowed) {
-                self.told = track;
-                self.planned = planned;
-                return end;
+            let track = self.commands(choice, trial, share);
+            let now = errors(&track);
+            if now.iter().zip(allowed).all(|(now, allowed)| now <= allowed) {
+                return (share, Some((now[0], track)));
             }
             share = if turn == 0 {
-                let half = errors(self, &self.commands(choice, &before, 0.5, planned));
-                let none = errors(self, &base);
+                let half = errors(&self.commands(choice, trial, 0.5));
+                let none = errors(before);
                 let shares = (0..now.len()).map(|k| within(none[k], half[k], now[k], allowed[k]));
                 shares.fold(1.0, f64::min) * 0.998
             } else {
@@ -229,7 +287,17 @@ impl Planner {
                 break;
             }
         }
-        end
+        (0.0, None)
+    }
+
+    /// The errors of each corner with these commands up to the volume `planned` and the plain lead
+    /// from there on, from what is settled to the volume `horizon`.
+    fn errors(&self, track: &Track, planned: f64, horizon: f64) -> Vec<f64> {
+        let mut track = track.clone();
+        add_plain(&mut track, &self.plain, (planned, horizon));
+        let part = (self.settled, horizon.min(self.total));
+        let error = |t: &Transition| misfit(t, track.told(), &self.wanted, part);
+        self.corners.iter().map(error).collect()
     }
 
     /// Where the plan is to go over into the plain lead: as far from its changes as can be, since
@@ -248,10 +316,10 @@ impl Planner {
         self.settled + best.unwrap_or(cells(last)) as f64 * choice.cell
     }
 
-    /// The commands of the solution, blended with the plan before it, after those of `before`.
-    fn commands(&self, choice: &Choice, before: &Track, share: f64, end: f64) -> Track {
-        let mut track = before.clone();
-        let cells = ((end - self.settled) / choice.cell).round() as usize;
+    /// The commands of the solution, blended with the plan before it, after those settled.
+    fn commands(&self, choice: &Choice, trial: &Trial, share: f64) -> Track {
+        let mut track = trial.before.before(self.settled);
+        let cells = ((trial.planned - self.settled) / choice.cell).round() as usize;
         for i in 0..cells {
             let at = self.settled + i as f64 * choice.cell;
             let values = choice.cell_values(i, share, self.materials);

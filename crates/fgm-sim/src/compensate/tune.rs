@@ -79,6 +79,14 @@ impl Tuned {
             case.weight = (case.weight * by).clamp(LEAST_WEIGHT, 100.0);
         }
     }
+
+    /// Gives more weight to the corners that came to more than they may, by what share of it.
+    pub(super) fn insist(&mut self, shares: impl Iterator<Item = f64>) {
+        for (case, share) in self.cases.iter_mut().zip(shares).skip(1) {
+            let by = if share > 1.0 { share.powi(2).clamp(1.2, 3.0) } else { 1.0 };
+            case.weight = (case.weight * by).min(100.0);
+        }
+    }
 }
 
 /// Errors count by what they are with the plain lead, that of the measured transition as 1.

@@ -41,7 +41,7 @@ pub(crate) fn lead(arguments: &LeadPrint) -> Result<(), Failure> {
              fgm calibrate solve lead --late MM --line {} --lead-volume {late}{}",
             if section.width < 0.7 { 1.0 } else { (2.0 * section.width).ceil() },
             arguments.size[1],
-            section_options(section),
+            solve_options(&arguments.print, section),
         ),
     );
     Ok(())
@@ -67,7 +67,7 @@ pub(crate) fn transition(arguments: &TransitionPrint) -> Result<(), Failure> {
              fgm calibrate solve transition --begins MM --ends MM{}",
             changed.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
             arguments.line + apart,
-            section_options(section),
+            solve_options(&arguments.print, section),
         ),
     );
     Ok(())
@@ -106,7 +106,7 @@ pub(crate) fn foaming(arguments: &FoamingPrint) -> Result<(), Failure> {
              fgm calibrate solve foaming --wall {}=MM ...{}",
             celsius.join(", "),
             celsius.first().map_or("190", String::as_str),
-            section_options(section),
+            solve_options(&arguments.print, section),
         ),
     );
     Ok(())
@@ -172,6 +172,7 @@ fn write(
     let mut options = WriterOptions::of(machine);
     options.offset = machine.bed.centering(&bounds);
     options.comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION")), command_line()];
+    options.comments.extend(fgm::machine_comments(machine));
     let mut output = Output::create(&print.output)?;
     let fail = |e: GcodeError| match e {
         GcodeError::Io(e) => Failure::write(&print.output, &e),
@@ -192,8 +193,12 @@ fn gcode_failure(error: &GcodeError) -> Failure {
     }
 }
 
-fn section_options(section: Section) -> String {
-    format!(" --bead-width {} --layer-height {}", section.width, section.height)
+/// What `fgm calibrate solve` has to be told of the print.
+fn solve_options(print: &PrintArguments, section: Section) -> String {
+    format!(
+        " --bead-width {} --layer-height {} --printer {} -o mine.toml",
+        section.width, section.height, print.printer
+    )
 }
 
 /// What to do with the print, on standard error: standard output may be the G-code.

@@ -1,0 +1,105 @@
+//! What the deposit is to be along each bead, where commands are chosen for it.
+
+use fgm_core::{MAX_MATERIALS, MaterialField, Mixture, Motion, Point2, Point3};
+use fgm_field::Design;
+
+use crate::{choice::Aim, settings::Settings};
+
+/// The most samples of a bead.
+const MOST: f64 = 1e5;
+
+/// The design's mixtures, bead by bead.
+pub(crate) struct Target<'a> {
+    material: &'a dyn MaterialField,
+    /// Between samples, mm, at most.
+    step: f64,
+    at: Point2,
+    points: Vec<Point3>,
+    /// Fractions of the points, material by material.
+    fractions: Vec<f64>,
+    mixtures: Vec<Mixture>,
+}
+
+impl<'a> Target<'a> {
+    /// None where the paths' colours are what the deposit is to be.
+    pub(crate) fn of(design: &'a Design, settings: &Settings) -> Option<Self> {
+        (settings.aim() == Aim::Design).then(|| Self {
+            material: design.fractions.as_ref(),
+            step: settings.contour.cell,
+            at: Point2::ZERO,
+            points: Vec::new(),
+            fractions: Vec::new(),
+            mixtures: Vec::new(),
+        })
+    }
+
+    /// The mixtures along a bead of the part, each over an equal share of its length, in a layer
+    /// cut at the height `cut`; none for any other motion, nor where the design has none.
+    pub(crate) fn along(&mut self, motion: &Motion, cut: f64) -> &[Mixture] {
+        self.mixtures.clear();
+        match *motion {
+            Motion::Travel { to } => self.at = to,
+            Motion::Extrude { to, role, .. } => {
+                let from = std::mem::replace(&mut self.at, to);
+                if role.is_part() && self.sample(from, to, cut).is_none() {
+                    self.mixtures.clear();
+                }
+            }
+            Motion::Layer { .. } | Motion::Color(_) | Motion::Command(_) => {}
+        }
+        &self.mixtures
+    }
+
+    /// Takes the mixtures between two points; none where one of them is not valid.
+    fn sample(&mut self, from: Point2, to: Point2, cut: f64) -> Option<()> {
+        let count = (from.distance(to) / self.step).ceil().clamp(1.0, MOST) as usize;
+        let share = |i: usize| (i as f64 + 0.5) / count as f64;
+        self.points.clear();
+        self.points.extend((0..count).map(|i| from.lerp(to, share(i)).extend(cut)));
+        let materials = self.material.materials().min(MAX_MATERIALS);
+        self.fractions.resize(materials * count, 0.0);
+        for (material, out) in self.fractions.chunks_mut(count).take(materials).enumerate() {
+            self.material.fraction(material).eval_into(&self.points, out);
+        }
+        for i in 0..count {
+            let mut weights = [0.0; MAX_MATERIALS];
+            for (material, weight) in weights.iter_mut().take(materials).enumerate() {
+                *weight = self.fractions[material * count + i];
+            }
+            self.mixtures.push(Mixture::from_weights(&weights[..materials]).ok()?);
+        }
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fgm_core::Role;
+
+    #[test]
+    fn a_bead_is_to_be_what_the_design_is_along_it() {
+        let source =
+            "fgrade([\"x/10 + 1e-18 sqrt(5 - x)\", \"1 - x/10\"], [\"a\", \"b\"]) { cube(20); }";
+        let design = fgm_design::parse_vcad(source, ".".as_ref(), &Default::default()).unwrap();
+        let settings = Settings::default();
+        let mut target = Target::of(&design.design, &settings).unwrap();
+        let bead = |x, role| Motion::Extrude { to: Point2::new(x, 0.0), width: 0.4, role };
+        target.along(&Motion::Travel { to: Point2::new(1.0, 0.0) }, 0.0);
+        let shares: Vec<f64> = target
+            .along(&bead(2.0, Role::Infill), 0.0)
+            .iter()
+            .map(|mixture| mixture.fractions()[0])
+            .collect();
+        assert!(shares.len() == 2 && (shares[0] - 0.125).abs() < 1e-12, "{shares:?}");
+        assert!((shares[1] - 0.175).abs() < 1e-12, "{shares:?}");
+        // Neither a tower's nor one that leaves the design's mixtures.
+        assert!(target.along(&bead(3.0, Role::PurgeTower), 0.0).is_empty());
+        assert!(target.along(&bead(6.0, Role::Infill), 0.0).is_empty());
+        let mut zipped = settings;
+        zipped.palette.zipper = crate::Zipper::Share(0.05);
+        assert!(Target::of(&design.design, &zipped).is_none());
+        zipped.compensation.aim = Some(Aim::Design);
+        assert!(Target::of(&design.design, &zipped).is_some());
+    }
+}
