@@ -2,10 +2,11 @@
 
 use std::{
     fs,
-    io::{self, BufWriter, Write},
+    io::{self, BufWriter, Seek, Write},
     path::{Path, PathBuf},
 };
 
+use fgm::gcode::ProgressLines;
 use tempfile::NamedTempFile;
 
 use crate::failure::Failure;
@@ -19,6 +20,12 @@ pub(crate) enum Output {
     /// Standard output, a device or a pipe: nothing to rename.
     Stream {
         path: PathBuf,
+        stream: Box<dyn Write>,
+    },
+    /// The same for what is written over before it goes out.
+    Spooled {
+        path: PathBuf,
+        spool: BufWriter<fs::File>,
         stream: Box<dyn Write>,
     },
 }
@@ -63,6 +70,30 @@ impl Output {
         Ok(Self::File { path, file: BufWriter::with_capacity(BUFFER, file) })
     }
 
+    /// As [`create`](Self::create), for what is to be [filled in](Self::fill).
+    pub(crate) fn to_fill(path: &Path) -> Result<Self, Failure> {
+        match Self::create(path)? {
+            Self::Stream { path, stream } => {
+                let spool = tempfile::tempfile().map_err(|e| Failure::write(&path, &e))?;
+                let spool = BufWriter::with_capacity(BUFFER, spool);
+                Ok(Self::Spooled { path, spool, stream })
+            }
+            output => Ok(output),
+        }
+    }
+
+    /// Fills in the lines that tell the progress.
+    pub(crate) fn fill(&mut self, lines: &ProgressLines) -> Result<(), Failure> {
+        match self {
+            Self::File { path, file } => lines.fill(file).map_err(|e| Failure::write(path, &e)),
+            Self::Spooled { path, spool, .. } => {
+                lines.fill(spool).map_err(|e| Failure::write(path, &e))
+            }
+            // What went out cannot be written over: the lines stay comments.
+            Self::Stream { .. } => Ok(()),
+        }
+    }
+
     /// Puts the finished file in its place.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         match self {
@@ -73,6 +104,15 @@ impl Output {
             }
             Self::Stream { path, mut stream } => {
                 stream.flush().map_err(|e| Failure::write(&path, &e))
+            }
+            Self::Spooled { path, spool, mut stream } => {
+                let copy = || {
+                    let mut spool = spool.into_inner().map_err(io::IntoInnerError::into_error)?;
+                    spool.rewind()?;
+                    io::copy(&mut spool, &mut stream)?;
+                    stream.flush()
+                };
+                copy().map_err(|e| Failure::write(&path, &e))
             }
         }
     }
@@ -91,6 +131,7 @@ impl Write for Output {
         match self {
             Self::File { file, .. } => file.write(bytes),
             Self::Stream { stream, .. } => stream.write(bytes),
+            Self::Spooled { spool, .. } => spool.write(bytes),
         }
     }
 
@@ -98,6 +139,7 @@ impl Write for Output {
         match self {
             Self::File { file, .. } => file.flush(),
             Self::Stream { stream, .. } => stream.flush(),
+            Self::Spooled { spool, .. } => spool.flush(),
         }
     }
 }

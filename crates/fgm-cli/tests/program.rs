@@ -181,6 +181,27 @@ fn a_slice_writes_its_file_its_report_and_its_head() {
 }
 
 #[test]
+fn progress_is_filled_in_wherever_the_gcode_goes() {
+    let place = Place::new(&[("d.vcad", BOX.as_bytes())]);
+    let slice = |to: &str| {
+        let foaming = ["slice", "d.vcad", "--printer", "prusa-mk4s-lw-pla", "-q", "-o", to];
+        let output = place.run(&foaming);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let told = |gcode: &str| -> Vec<String> {
+        gcode.lines().filter(|l| l.contains("M73")).map(str::to_owned).collect()
+    };
+    let stream = told(&slice("-"));
+    slice("o.gcode");
+    assert_eq!(told(&place.read("o.gcode")), stream);
+    assert!(stream.len() > 2 && stream[0].starts_with("M73 P000 R0"), "{stream:?}");
+    assert_eq!(stream.last().map(String::as_str), Some("M73 P100 R00000"));
+    assert!(stream.iter().all(|l| l.starts_with("M73 P")), "{stream:?}");
+    assert_eq!(place.files(), ["d.vcad", "o.gcode"]);
+}
+
+#[test]
 fn standard_output_takes_the_gcode() {
     let place = Place::new(&[("d.vcad", BOX.as_bytes())]);
     let output = place.run(&["slice", "d.vcad", "-o", "-", "-q", "--layers", "1"]);

@@ -13,7 +13,8 @@
 //! | colours | [`State`], [`Machine::states`], [`safe_ratios`] |
 //! | look-ahead | [`Lead`], [`Led`], [`MotionQueue`], [`Step`] |
 //! | dialects | [`Dialect`], [`Change`], [`Move`], [`Text`], [`Fixed`]; [`MarlinMixing`], [`MarlinTools`], [`MarlinDirect`], [`RepRap`], [`Kalico`], [`Repetier`], [`ToolChange`], [`PrusaXl`], [`Foam`] |
-//! | writing | [`Writer`], [`WriterOptions`], [`Summary`], [`TimeEstimate`] |
+//! | writing | [`Writer`], [`WriterOptions`], [`Summary`], [`ProgressLines`] |
+//! | time | [`TimeEstimate`], [`Pacer`], [`Paced`], [`Pace`] |
 //! | reading | [`Reader`], [`lines`], [`Line`], [`Command`], [`Code`], [`Word`] |
 //! | faults | [`GcodeError`], `MachineError` |
 //!
@@ -74,6 +75,8 @@ mod error;
 mod fixed;
 mod lead;
 mod machine;
+mod pace;
+mod progress;
 mod queue;
 mod ratio;
 mod reader;
@@ -97,6 +100,8 @@ pub use machine::{
     Auger, Bed, DialectName, DialectOptions, Fan, Foaming, LeadOptions, Machine, MachineKind,
     MotionLimits, Retraction, Speeds, Temperatures, Templates, ToolChanging, TransitionOptions,
 };
+pub use pace::{Pace, Paced, Pacer};
+pub use progress::ProgressLines;
 pub use queue::MotionQueue;
 pub use ratio::safe_ratios;
 pub use reader::{Arguments, Code, Command, Line, Lines, Pairs, Reader, Word, lines};

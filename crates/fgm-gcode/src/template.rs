@@ -101,7 +101,11 @@ mod tests {
 
     #[test]
     fn heights_are_known_at_the_end_only() {
-        let templates = |start: &str, end: &str| Templates { start: start.into(), end: end.into() };
+        let templates = |start: &str, end: &str| Templates {
+            start: start.into(),
+            end: end.into(),
+            ..Templates::default()
+        };
         assert!(check(&templates("", "G1 Z{park_z}")).is_ok());
         assert!(check(&templates("G1 Z{park_z}", "")).is_err());
     }

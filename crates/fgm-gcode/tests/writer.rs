@@ -305,13 +305,68 @@ fn beads_below_the_resolution_are_not_written_but_fed() {
 #[test]
 fn progress_and_layers() {
     let machine = machine("generic-mixing");
-    let options = WriterOptions { total_layers: Some(3), progress: true, ..options(&machine) };
-    let (text, summary) = write(&machine, &options, steps(&two_layers())).unwrap();
-    let told: Vec<&str> = text.lines().filter(|l| l.starts_with("M73")).collect();
-    assert_eq!(told, ["M73 P0", "M73 P33 R1", "M73 P66 R1"]);
+    let options = WriterOptions { progress: true, ..options(&machine) };
+    let mut print = two_layers();
+    print.extend((0..100).map(|i| line(if i % 2 == 0 { 80.0 } else { 0.0 }, 0.0)));
+    let (text, summary) = write(&machine, &options, steps(&print)).unwrap();
+    assert!(!text.contains("\nM73"));
+
+    let mut file = std::io::Cursor::new(text.clone().into_bytes());
+    summary.progress.fill(&mut file).unwrap();
+    let filled = String::from_utf8(file.into_inner()).unwrap();
+    let told: Vec<&str> = filled.lines().filter(|l| l.starts_with("M73")).collect();
+    assert_eq!(told.len(), summary.progress.len());
+    let minutes = (summary.print_time_s / 60.0).ceil() as u32;
+    assert_eq!(told[0], format!("M73 P000 R{minutes:05}"));
+    assert_eq!(told.last(), Some(&"M73 P100 R00000"));
+    assert!(told.len() as f64 > summary.print_time_s / 35.0, "{told:?}");
+    assert!(told.windows(2).all(|w| w[0][..8] < w[1][..8] && w[0][9..] >= w[1][9..]), "{told:?}");
+    let rest = |text: &str| -> Vec<String> {
+        text.lines().filter(|l| !l.contains("M73")).map(str::to_owned).collect()
+    };
+    assert_eq!(rest(&filled), rest(&text));
+
+    let silent = WriterOptions { progress: false, ..options };
+    let (silent, summary) = write(&machine, &silent, steps(&print)).unwrap();
+    assert!(summary.progress.is_empty() && !silent.contains("M73"));
     assert_eq!(summary.layers, 3);
     let heights: Vec<&str> = text.lines().filter(|l| l.starts_with(";Z:")).collect();
     assert_eq!(heights, [";Z:0.2", ";Z:0.4", ";Z:0.6"]);
+}
+
+#[test]
+fn flows_stay_within_the_limits_of_the_machine_and_its_inputs() {
+    // Feedrates of the beads in the palette's four colours: shares of 1/8, 3/8, 5/8 and 7/8.
+    let feedrates = |most: Option<f64>, inputs: &[f64]| {
+        let mut machine = machine("generic-mixing");
+        (machine.max_flow, machine.max_input_flow) = (most, inputs.to_vec());
+        let mut print = vec![layer(0), layer(1), travel(0.0, 0.0)];
+        for c in 0..4 {
+            print.extend([color(c), line(f64::from((c + 1) % 2) * 40.0, 10.0 * f64::from(c))]);
+        }
+        let (text, _) = write(&machine, &options(&machine), steps(&print)).unwrap();
+        let mut feedrate = 0.0;
+        let beads = lines(&text.as_bytes()[text.find(";LAYER_CHANGE").unwrap()..])
+            .filter_map(|l| l.command)
+            .filter_map(|c| {
+                feedrate = c.value(b'F').unwrap_or(feedrate);
+                (c.has(b'X') || c.has(b'Y')).then_some(())?;
+                c.has(b'E').then_some(feedrate)
+            });
+        beads.collect::<Vec<f64>>()
+    };
+    let area = bead::area(0.4, 0.2);
+    let at = |flow: f64| (60.0 * flow / area).round();
+    for (most, inputs, want) in [
+        (None, &[][..], [2700.0; 4]),
+        (Some(2.0), &[], [at(2.0); 4]),
+        // The second filament is the slow one: it lets the first colour pass, the last hardly.
+        (None, &[10.0, 1.0], [2700.0, at(8.0 / 3.0), at(1.6), at(8.0 / 7.0)]),
+        (Some(1.5), &[10.0, 1.0], [at(1.5), at(1.5), at(1.5), at(8.0 / 7.0)]),
+        (None, &[1.0], [at(8.0 / 7.0), at(1.6), at(8.0 / 3.0), 2700.0]),
+    ] {
+        assert_eq!(feedrates(most, inputs), want, "{most:?} {inputs:?}");
+    }
 }
 
 struct Laser;

@@ -11,8 +11,10 @@ pub enum Event {
     Travel(Travel),
     /// The machine stands still, or moves its filament only.
     Pause {
-        /// How long, s.
+        /// How long, at the commanded speed, s.
         seconds: f64,
+        /// How far the filament moves meanwhile, mm: negative where it is pulled back.
+        filament: f64,
     },
     /// A nozzle has another temperature to reach.
     Heat(Heat),

@@ -51,7 +51,7 @@ pub struct Figures {
     pub filament_mm3: Vec<f64>,
     /// Filament fed before the first layer, mm³.
     pub start_mm3: f64,
-    /// Estimated time, s, without heating up.
+    /// Estimated time, s; of the start what the profile says (`template.start_seconds`).
     pub print_time_s: f64,
     /// Least corner of the beads, on the bed, mm; none without beads.
     pub min_mm: Option<[f64; 3]>,
@@ -66,12 +66,14 @@ impl Totals {
     pub fn new(machine: Option<&Machine>) -> Self {
         let usual = Machine::default();
         let known = machine.unwrap_or(&usual);
+        let mut time = TimeEstimate::new(&known.motion);
+        time.dwell(known.template.start_seconds);
         Self {
             figures: Figures::new(),
             kind: machine.map(|m| m.kind),
             acceleration: [known.motion.acceleration, known.motion.travel_acceleration],
             swap_seconds: known.tool_change.seconds,
-            time: TimeEstimate::new(&known.motion),
+            time,
             head: None,
             pending: Pending::default(),
         }
@@ -107,7 +109,13 @@ impl Totals {
                 self.pending.count += u64::from(length > 0.0);
                 self.pending.length += length;
             }
-            Event::Pause { seconds } if self.figures.layers > 0 => self.time.dwell(*seconds),
+            Event::Pause { seconds, filament } if self.figures.layers > 0 => {
+                if *filament == 0.0 {
+                    self.time.dwell(*seconds);
+                } else {
+                    self.time.push_filament(*filament, filament.abs() / seconds);
+                }
+            }
             _ => {}
         }
     }

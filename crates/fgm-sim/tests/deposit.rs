@@ -151,7 +151,7 @@ fn a_nozzle_that_follows_slowly_lays_down_what_it_is() {
     push(&Event::Bead(bead(0.0, 10.0, 2.0, 0.0, 190.0)));
     push(&told(225.0, false));
     push(&Event::Bead(bead(10.0, 110.0, 20.0, 1.0, 225.0)));
-    push(&Event::Pause { seconds: 100.0 });
+    push(&Event::Pause { seconds: 100.0, filament: 0.0 });
     push(&Event::Bead(bead(110.0, 120.0, 2.0, 1.0, 225.0)));
     assert_eq!(pieces[0].celsius, Some(190.0));
     let warming: Vec<_> = pieces.iter().filter(|p| p.from.x >= 10.0 && p.to.x <= 110.0).collect();

@@ -33,7 +33,7 @@ fn show(machine: Option<&str>, gcode: &str) -> String {
                 )
             }
             Event::Travel(t) => format!("go {:.2}", t.length()),
-            Event::Pause { seconds } => format!("wait {seconds:.2}"),
+            Event::Pause { seconds, .. } => format!("wait {seconds:.2}"),
             Event::Heat(h) => {
                 format!("heat{} {} {}", h.head, h.celsius, if h.wait { "wait" } else { "go" })
             }
@@ -245,7 +245,7 @@ proptest! {
                     prop_assert!(t.to.is_finite() && t.length().is_finite());
                     prop_assert!(t.seconds.is_finite());
                 }
-                Event::Pause { seconds } => prop_assert!(seconds.is_finite() && seconds >= 0.0),
+                Event::Pause { seconds, .. } => prop_assert!(seconds.is_finite() && seconds >= 0.0),
                 Event::Heat(h) => prop_assert!(h.celsius.is_finite()),
                 Event::Layer(_) => {}
             }

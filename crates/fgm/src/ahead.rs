@@ -1,7 +1,7 @@
 //! What stands between the motions and the writer: commands before their boundaries.
 
 use fgm_core::{Mixture, Motion};
-use fgm_gcode::{GcodeError, Lead, Machine, MachineKind, State, Step};
+use fgm_gcode::{GcodeError, Lead, Machine, MachineKind, Pace, State, Step};
 use fgm_sim::{Compensate, CompensateOptions, Preheat};
 
 use crate::{choice::Aim, report::DepositReport, settings::Settings};
@@ -42,6 +42,13 @@ impl Ahead {
         };
         let compensate = Box::new(Compensate::new(&options, palette, states));
         Self::Compensate { enabled, aim: settings.aim(), compensate }
+    }
+
+    /// The beads that come next go at this pace, where time counts.
+    pub(crate) fn set_pace(&mut self, pace: Pace) {
+        if let Self::Preheat(preheat) = self {
+            preheat.set_pace(pace);
+        }
     }
 
     /// Whether it matters what the design is along each bead.

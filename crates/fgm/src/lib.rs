@@ -38,6 +38,7 @@ mod ahead;
 mod boundaries;
 mod choice;
 mod colors;
+mod cooling;
 mod error;
 mod extent;
 mod field_sections;
@@ -70,7 +71,7 @@ pub use inspect::{Inspection, MaterialRange, inspect};
 pub use layers::{Layer, Layers};
 pub use machine::machine;
 pub use progress::{Progress, Quiet};
-pub use report::{DepositFit, DepositReport, MaterialUse, Report};
+pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
     AgainstSettings, CompensationSettings, ContourSettings, InfillSettings, LayerSettings,

@@ -1,5 +1,5 @@
 use fgm_field::Design;
-use fgm_gcode::{Machine, MachineKind};
+use fgm_gcode::{Machine, MachineKind, ProgressLines};
 use fgm_sim::{Compensated, Fit};
 use serde::Serialize;
 
@@ -43,6 +43,12 @@ pub struct Report {
     pub bytes: u64,
     /// How long the print takes, s.
     pub print_time_s: f64,
+    /// Layers that were slowed so that they can cool.
+    pub cooling: CoolingReport,
+    /// The lines of the G-code that tell the progress: to be filled in where the output can be
+    /// written over. Left as they are they are comments.
+    #[serde(skip)]
+    pub progress: ProgressLines,
     /// Each input material: name, volume mm³, length of filament m, mass g.
     pub materials: Vec<MaterialUse>,
     /// How far the deposit is predicted to be from what it is to be; none for a printer without a
@@ -53,6 +59,17 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Where the time of the slice went, s.
     pub seconds: StageSeconds,
+}
+
+/// Layers slowed by `cooling.min_layer_time`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct CoolingReport {
+    /// How many.
+    pub slowed_layers: usize,
+    /// What that adds to the time of the print, s.
+    pub added_s: f64,
+    /// Of them, those that take less than the least time even at `cooling.min_speed`.
+    pub short_layers: usize,
 }
 
 /// How far what is laid down is predicted to be from the design, or from the colours of the part's

@@ -175,6 +175,13 @@ settings! {
         #[doc = "Least volume that a command lasts."]
         shortest: f64 = 0.2, "0.2", "mm3";
     }
+    #[doc = "Time for layers to cool."]
+    cooling: CoolingSettings {
+        #[doc = "Least time of a layer: a shorter one has its beads slowed, the walls that are seen last, travels not. 0 for never."]
+        min_layer_time: f64 = 5.0, "5", "s";
+        #[doc = "No bead is slowed below this."]
+        min_speed: f64 = 10.0, "10", "mm/s";
+    }
     #[doc = "Loops around the part on the first layer."]
     skirt: SkirtSettings {
         #[doc = "How many loops."]
@@ -283,6 +290,9 @@ impl Settings {
         let off = compensation.uncertainty;
         within("compensation.uncertainty", off, 0.0..=0.9, "0 to 0.9")?;
         within("compensation.shortest", compensation.shortest, 1e-3..=1e5, "0.001 to 100000 mm3")?;
+        let cooling = &self.cooling;
+        within("cooling.min_layer_time", cooling.min_layer_time, 0.0..=3600.0, "0 to 3600 s")?;
+        within("cooling.min_speed", cooling.min_speed, 0.1..=1e4, "0.1 to 10000 mm/s")?;
         within("skirt.gap", self.skirt.gap, 0.0..=1e3, "0 to 1000 mm")?;
         let count = |key, value: usize, most: usize, wanted| {
             within(key, value as f64, 0.0..=most as f64, wanted)

@@ -10,6 +10,7 @@ use crate::{
     ahead::Ahead,
     choice::{ColorCount, Strategy, Zipper},
     colors,
+    cooling::Cooling,
     error::SliceError,
     extent, head,
     job::{Job, PlannedLayer},
@@ -18,8 +19,8 @@ use crate::{
     pipeline, placement,
     progress::Progress,
     purge::{self, Purge},
-    report::{Report, material_use},
-    settings::Settings,
+    report::{CoolingReport, Report, material_use},
+    settings::{CoolingSettings, Settings},
     stages::{StageSeconds, timed},
     stream::Stream,
     target::Target,
@@ -153,15 +154,21 @@ impl<'a> Slicer<'a> {
             progress.advance(done, total);
             Ok(())
         })?;
-        let (summary, deposit) = timed(&mut seconds.write, || stream.finish())?;
+        let written = timed(&mut seconds.write, || stream.finish())?;
         if report.pieces == 0 {
             return Err(SliceError::NothingToPrint {
                 reason: "no bead fits into any layer: the part is thinner than a bead".into(),
             });
         }
         seconds.total = start.elapsed().as_secs_f64();
-        self.fill(&mut report, &summary, palette.colors(), total);
-        report.deposit = deposit;
+        self.fill(&mut report, &written.summary, palette.colors(), total);
+        report.progress = written.summary.progress;
+        report.deposit = written.deposit;
+        report.cooling = written.cooling;
+        if let Some(warning) = self.too_short(&written.cooling) {
+            progress.warn(&warning);
+            warnings.push(warning);
+        }
         report.warnings = warnings;
         report.seconds = seconds;
         Ok(report)
@@ -182,6 +189,18 @@ impl<'a> Slicer<'a> {
             );
         }
         warnings
+    }
+
+    /// That some layers have less time to cool than they should.
+    fn too_short(&self, cooling: &CoolingReport) -> Option<String> {
+        let CoolingSettings { min_layer_time, min_speed } = self.settings.cooling;
+        let short = cooling.short_layers;
+        (short > 0).then(|| {
+            format!(
+                "{short} layers take less than {min_layer_time} s (cooling.min_layer_time) even at \
+                 {min_speed} mm/s (cooling.min_speed)"
+            )
+        })
     }
 
     fn check_inputs(&self) -> Result<(), SliceError> {
@@ -287,7 +306,6 @@ impl<'a> Slicer<'a> {
             offset,
             comments,
             colors: mixtures.iter().map(|m| colors::shown(self.design, m)).collect(),
-            total_layers: u32::try_from(range.len()).ok(),
             ..WriterOptions::of(self.machine)
         };
         let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
@@ -298,6 +316,7 @@ impl<'a> Slicer<'a> {
             writer: Writer::new(out, machine, &states, &options)?,
             purge: Purge::new(machine, settings, lead, &mixtures, &last, place)?,
             target: Target::of(self.design, settings),
+            cooling: Cooling::new(machine, &states, &settings.cooling),
             layers,
             color: None,
             count: 0,

@@ -3,12 +3,18 @@
 use std::io::Write;
 
 use fgm_core::ColorId;
-use fgm_gcode::{GcodeError, Summary, Writer};
+use fgm_gcode::{GcodeError, Pace, Summary, Writer};
 use fgm_toolpath::LayerPlan;
 
 use crate::{
-    ahead::Ahead, error::SliceError, job::PlannedLayer, layers::Layers, purge::Purge,
-    report::DepositReport, target::Target,
+    ahead::Ahead,
+    cooling::Cooling,
+    error::SliceError,
+    job::PlannedLayer,
+    layers::Layers,
+    purge::Purge,
+    report::{CoolingReport, DepositReport},
+    target::Target,
 };
 
 /// What a print is written through.
@@ -18,11 +24,19 @@ pub(crate) struct Stream<'a> {
     pub(crate) purge: Option<Purge>,
     /// What the deposit is to be, where commands are chosen for the design.
     pub(crate) target: Option<Target<'a>>,
+    pub(crate) cooling: Option<Cooling>,
     pub(crate) layers: Layers,
     /// The colour that comes out at the end of what was pushed.
     pub(crate) color: Option<ColorId>,
     /// Layers pushed.
     pub(crate) count: usize,
+}
+
+/// What was written.
+pub(crate) struct Written {
+    pub(crate) summary: Summary,
+    pub(crate) deposit: Option<DepositReport>,
+    pub(crate) cooling: CoolingReport,
 }
 
 impl Stream<'_> {
@@ -35,6 +49,11 @@ impl Stream<'_> {
         };
         let index = u32::try_from(planned.index).unwrap_or(u32::MAX);
         let plan = LayerPlan::new(index, layer.top, layer.height, pieces)?;
+        let pace = self.cooling.as_mut().and_then(|c| c.pace(&plan, self.color));
+        self.ahead.set_pace(pace.unwrap_or(Pace::USUAL));
+        if let Some(pace) = pace {
+            self.writer.slow(index, pace);
+        }
         for motion in plan.motions(self.color) {
             let writer = &mut self.writer;
             let target = self.target.as_mut().filter(|_| self.ahead.aims());
@@ -47,9 +66,10 @@ impl Stream<'_> {
     }
 
     /// Writes the rest.
-    pub(crate) fn finish(self) -> Result<(Summary, Option<DepositReport>), GcodeError> {
-        let Self { ahead, mut writer, .. } = self;
+    pub(crate) fn finish(self) -> Result<Written, GcodeError> {
+        let Self { ahead, mut writer, cooling, .. } = self;
         let deposit = ahead.finish(|step| writer.push(step))?;
-        Ok((writer.finish()?, deposit))
+        let cooling = cooling.map_or_else(CoolingReport::default, |c| c.report());
+        Ok(Written { summary: writer.finish()?, deposit, cooling })
     }
 }

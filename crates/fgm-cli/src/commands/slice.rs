@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &SliceArguments) -> Result<(), Failure> {
     }
     let read_seconds = start.elapsed().as_secs_f64();
 
-    let mut output = Output::create(&arguments.output)?;
+    let open = if machine.dialect.progress { Output::to_fill } else { Output::create };
+    let mut output = open(&arguments.output)?;
     // The report's place is tried before the work, too, not found wanting after it.
     let report_file = arguments.report.as_deref().map(Output::create).transpose()?;
     let slicer = Slicer::new(&loaded.design, &machine, &settings)
@@ -53,6 +54,7 @@ pub(crate) fn run(arguments: &SliceArguments) -> Result<(), Failure> {
     report.seconds.total += read_seconds;
     report.warnings.splice(0..0, loaded.warnings.iter().map(ToString::to_string));
 
+    output.fill(&report.progress)?;
     output.finish()?;
     if let (Some(mut file), Some(path)) = (report_file, &arguments.report) {
         write_report(&report, &mut file).map_err(|e| Failure::write(path, &e))?;
@@ -266,6 +268,11 @@ fn summary(report: &Report, output: &Path) {
         report.state_changes,
         duration(report.print_time_s)
     );
+    let cooling = &report.cooling;
+    if cooling.slowed_layers > 0 {
+        let (layers, added) = (cooling.slowed_layers, duration(cooling.added_s));
+        let _ = writeln!(err, "  {dash} {layers} layers slowed to cool, {added} in all");
+    }
     if let Some(deposit) = &report.deposit {
         let _ = writeln!(err, "  {dash} {}", deposit_summary(deposit));
     }

@@ -46,6 +46,10 @@ impl Dialect for Kalico {
         out.list(self.motors.weights(&change.state.mixture))?.end();
         Ok(())
     }
+
+    fn stops(&self) -> bool {
+        true
+    }
 }
 
 /// Repetier: whole weights, `M163 S<motor> P<weight>`, kept by `M164 S<virtual tool>`.

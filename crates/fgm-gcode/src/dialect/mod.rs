@@ -95,6 +95,12 @@ pub trait Dialect {
         }
     }
 
+    /// Whether a change of colour makes the machine stop until all moves before it are over: the
+    /// estimate of the time counts it. Not by default.
+    fn stops(&self) -> bool {
+        false
+    }
+
     /// Whether the flow of a state is part of every E (the default), or told by
     /// [`deposit`](Self::deposit).
     fn folds_flow(&self) -> bool {

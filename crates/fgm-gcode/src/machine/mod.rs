@@ -1,5 +1,7 @@
 use fgm_core::Role;
 
+use crate::State;
+
 mod bed;
 #[cfg(feature = "serde")]
 mod builtin;
@@ -61,6 +63,9 @@ pub struct Machine {
     pub max_bead_area: Option<f64>,
     /// Greatest extruded volume per second, mm³/s; faster moves are slowed to it.
     pub max_flow: Option<f64>,
+    /// Greatest volume of each input per second, mm³/s, where the materials differ: filaments in
+    /// their order, or heads. Those without an entry have no limit of their own.
+    pub max_input_flow: Vec<f64>,
     /// Where the nozzle can go.
     pub bed: Bed,
     /// The firmware's language.
@@ -103,6 +108,7 @@ impl Default for Machine {
             min_fraction: 0.01,
             max_bead_area: None,
             max_flow: None,
+            max_input_flow: Vec::new(),
             bed: Bed::default(),
             dialect: DialectOptions::default(),
             auger: Auger::default(),
@@ -158,11 +164,35 @@ impl Machine {
     }
 
     /// The speed of a role's beads that take so much filament a mm (mm²), mm/s: the profile's, no
-    /// more than the first layer's on that layer, slowed to the greatest flow.
-    pub fn bead_speed(&self, role: Role, fed: f64, first_layer: bool) -> f64 {
+    /// more than the first layer's on that layer, slowed to the greatest flow in the state that the
+    /// machine is in.
+    pub fn bead_speed(
+        &self,
+        role: Role,
+        fed: f64,
+        state: Option<&State>,
+        first_layer: bool,
+    ) -> f64 {
         let usual = self.speed.of(role);
         let speed = if first_layer { usual.min(self.speed.first_layer) } else { usual };
-        self.max_flow.map_or(speed, |most| speed.min(most / fed.max(f64::MIN_POSITIVE)))
+        speed.min(self.flow_limit(state) / fed.max(f64::MIN_POSITIVE))
+    }
+
+    /// The greatest flow in a state, mm³/s: the machine's, and no more than each input's for its
+    /// share of it; infinite where nothing limits it.
+    pub fn flow_limit(&self, state: Option<&State>) -> f64 {
+        let most = self.max_flow.unwrap_or(f64::INFINITY);
+        let Some(state) = state.filter(|_| !self.max_input_flow.is_empty()) else { return most };
+        let input = |i: usize| self.max_input_flow.get(i).copied().unwrap_or(f64::INFINITY);
+        let inputs = match self.kind {
+            MachineKind::Mixing => {
+                let shares = state.mixture.fractions().iter().enumerate();
+                shares.filter(|(_, w)| **w > 0.0).map(|(i, w)| input(i) / w).fold(most, f64::min)
+            }
+            MachineKind::ToolChanger => input(state.tool.unwrap_or(0) as usize),
+            MachineKind::Foaming => input(0),
+        };
+        most.min(inputs)
     }
 
     /// Section of the filament, mm².

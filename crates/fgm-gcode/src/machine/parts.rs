@@ -67,6 +67,8 @@ part!(
         /// Virtual tools that keep the palette's mixtures (Marlin, at most 16): written once, then
         /// called by `T<n>`. 0 for rewriting `virtual_tool` at each change.
         virtual_tools: u32 = 0,
+        /// Whether the firmware is told the progress by `M73 P<percent> R<minutes left>`.
+        progress: bool = false,
     }
 );
 
@@ -266,10 +268,14 @@ part!(
         acceleration: f64 = 1000.0,
         /// Acceleration of travels, mm/s².
         travel_acceleration: f64 = 1500.0,
+        /// Acceleration of the filament alone, mm/s².
+        retract_acceleration: f64 = 3000.0,
         /// How far a corner may be cut, mm: the speed through it follows.
         junction_deviation: f64 = 0.02,
-        /// Greatest speed of the z axis, mm/s.
-        max_z_speed: f64 = 12.0,
+        /// Greatest speed of x, y, z and the filament, mm/s.
+        max_speed: [f64; 4] = [500.0, 500.0, 12.0, 120.0],
+        /// Greatest acceleration of x, y, z and the filament, mm/s².
+        max_acceleration: [f64; 4] = [3000.0, 3000.0, 100.0, 10_000.0],
     }
 );
 
@@ -321,6 +327,8 @@ part!(
         start: String = DEFAULT_START.into(),
         /// After the last layer: heaters off, head away.
         end: String = DEFAULT_END.into(),
+        /// Time of the start, heating up included, s, for the time estimate.
+        start_seconds: f64 = 0.0,
     }
 );
 

@@ -33,6 +33,13 @@ impl Machine {
         check("min_fraction", self.min_fraction, &Range(0.0, 0.1, "0 to 0.1"))?;
         option("max_bead_area", self.max_bead_area, &POSITIVE)?;
         option("max_flow", self.max_flow, &POSITIVE)?;
+        for &flow in &self.max_input_flow {
+            check("max_input_flow", flow, &POSITIVE)?;
+        }
+        for axis in 0..4 {
+            check("motion.max_speed", self.motion.max_speed[axis], &POSITIVE)?;
+            check("motion.max_acceleration", self.motion.max_acceleration[axis], &POSITIVE)?;
+        }
         for axis in 0..3 {
             check("bed.origin", self.bed.origin[axis], &ANY)?;
             check("bed.size", self.bed.size[axis], &POSITIVE)?;
@@ -149,11 +156,12 @@ impl Machine {
             ("motion.acceleration", m.acceleration, &POSITIVE),
             ("motion.travel_acceleration", m.travel_acceleration, &POSITIVE),
             ("motion.junction_deviation", m.junction_deviation, &NOT_NEGATIVE),
-            ("motion.max_z_speed", m.max_z_speed, &POSITIVE),
+            ("motion.retract_acceleration", m.retract_acceleration, &POSITIVE),
             ("retraction.length", r.length, &NOT_NEGATIVE),
             ("retraction.speed", r.speed, &POSITIVE),
             ("retraction.min_travel", r.min_travel, &NOT_NEGATIVE),
             ("retraction.z_hop", r.z_hop, &NOT_NEGATIVE),
+            ("template.start_seconds", self.template.start_seconds, &NOT_NEGATIVE),
             ("fan.speed", self.fan.speed, &SHARE),
             ("fan.bridge", self.fan.bridge, &SHARE),
             ("tool_change.retraction", c.retraction, &NOT_NEGATIVE),

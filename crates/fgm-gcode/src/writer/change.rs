@@ -153,7 +153,13 @@ impl<W: io::Write> Writer<W> {
         self.text = text;
         set?;
         (self.heads.color, self.heads.state) = (color, state);
+        if !self.machine.max_input_flow.is_empty() {
+            self.bead.forget();
+        }
         self.summary.state_changes += 1;
+        if self.dialect.stops() {
+            self.time.dwell(0.0);
+        }
         let first_use = self.heads.take(tool);
         if swap {
             self.position.lose();

@@ -10,6 +10,7 @@ impl<W: io::Write> Writer<W> {
     pub(super) fn head(&mut self, color: ColorId) -> Result<(), GcodeError> {
         let state = self.state(color)?;
         self.comments()?;
+        self.mark_progress(0.0);
         let mut setting = Text::new();
         let change = Change {
             color,
@@ -31,6 +32,7 @@ impl<W: io::Write> Writer<W> {
             self.variable(name, &state)
         })?;
         self.position.follow(rendered.as_bytes())?;
+        self.time.dwell(self.machine.template.start_seconds);
         relative_extrusion(&rendered, &mut self.text);
         self.dialect.begin(&mut self.text);
         if !template::uses(&start, &["initial_state"]) {
@@ -108,6 +110,8 @@ impl<W: io::Write> Writer<W> {
     /// The end template, and what viewers and hosts read at the end of a file.
     pub(super) fn tail(&mut self) -> Result<(), GcodeError> {
         self.retract(self.options.retraction.length)?;
+        self.summary.print_time_s = self.time.seconds();
+        self.mark_progress(self.summary.print_time_s);
         self.dialect.end(&mut self.text);
         if !self.machine.auger.stop.is_empty() {
             self.text.line(&self.machine.auger.stop);

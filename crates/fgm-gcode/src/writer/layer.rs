@@ -1,11 +1,11 @@
 use std::io;
 
 use super::Writer;
-use crate::{Fixed, GcodeError};
+use crate::{Fixed, GcodeError, Pace};
 
 impl<W: io::Write> Writer<W> {
     /// A new layer: tags, and what changes after the first one.
-    pub(super) fn layer(&mut self, z: f64, height: f64) -> Result<(), GcodeError> {
+    pub(super) fn layer(&mut self, index: u32, z: f64, height: f64) -> Result<(), GcodeError> {
         if !(height > 0.0 && height.is_finite()) {
             return Err(GcodeError::Setting {
                 name: "layer height".into(),
@@ -17,6 +17,11 @@ impl<W: io::Write> Writer<W> {
         self.position.layer_z = top;
         self.position.max_z = self.position.max_z.max(top);
         self.bead.layer(height);
+        self.pace = match self.paces.front() {
+            Some((layer, _)) if *layer == index => self.paces.pop_front().map(|paced| paced.1),
+            _ => None,
+        }
+        .unwrap_or(Pace::USUAL);
         self.summary.layers += 1;
 
         self.dialect.comment("LAYER_CHANGE", &mut self.text);
@@ -26,7 +31,6 @@ impl<W: io::Write> Writer<W> {
             let text = format!("{tag}:{}", String::from_utf8_lossy(&digits));
             self.dialect.comment(&text, &mut self.text);
         }
-        self.progress();
         let begun = self.summary.layers - 1;
         if begun == 1 {
             self.after_first_layer()?;
@@ -48,21 +52,5 @@ impl<W: io::Write> Writer<W> {
             self.dialect.bed_temperature(t.bed, false, &mut self.text);
         }
         Ok(())
-    }
-
-    /// `M73`, by the share of the layers and the time they took.
-    fn progress(&mut self) {
-        let Some(total) = self.options.total_layers.filter(|n| *n > 0 && self.options.progress)
-        else {
-            return;
-        };
-        let done = (self.summary.layers - 1).min(u64::from(total)) as f64;
-        let total = f64::from(total);
-        self.text.raw("M73").int('P', (100.0 * done / total) as u32);
-        if done > 0.0 {
-            let left = self.time.seconds() / done * (total - done);
-            self.text.int('R', (left / 60.0).ceil() as u32);
-        }
-        self.text.end();
     }
 }

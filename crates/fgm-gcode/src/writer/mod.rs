@@ -6,12 +6,13 @@ mod options;
 mod position;
 mod summary;
 
-use std::io;
+use std::{collections::VecDeque, io};
 
 use fgm_core::{ColorId, Motion};
 
 use crate::{
-    Dialect, GcodeError, Machine, MachineKind, State, Step, Text, TimeEstimate, dialect::Change,
+    Dialect, GcodeError, Machine, MachineKind, Pace, ProgressLines, State, Step, Text,
+    TimeEstimate, dialect::Change,
 };
 use change::Heads;
 use moves::Bead;
@@ -50,6 +51,9 @@ pub struct Writer<W: io::Write> {
     heads: Heads,
     position: Position,
     bead: Bead,
+    /// Of this layer, and of those to come, by their index.
+    pace: Pace,
+    paces: VecDeque<(u32, Pace)>,
     time: TimeEstimate,
     /// Fed since the last command, mm³.
     fed: f64,
@@ -108,6 +112,8 @@ impl<W: io::Write> Writer<W> {
             early: Some(Vec::new()),
             heads: Heads::new(states, first),
             bead: Bead::default(),
+            pace: Pace::USUAL,
+            paces: VecDeque::new(),
             fed: 0.0,
             summary: Summary::new(inputs),
         };
@@ -136,7 +142,18 @@ impl<W: io::Write> Writer<W> {
             self.begin(color)?;
         }
         self.step(step)?;
+        if self.options.progress
+            && self.time.at_least() - self.summary.progress.last() >= ProgressLines::STEP
+        {
+            self.mark_progress(self.time.seconds());
+        }
         if self.text.as_bytes().len() >= BLOCK { self.flush() } else { Ok(()) }
+    }
+
+    /// Slows the beads of a layer that is still to come, by the index that it will have. Layers come
+    /// in the order of their paces.
+    pub fn slow(&mut self, layer: u32, pace: Pace) {
+        self.paces.push_back((layer, pace));
     }
 
     /// Ends the print, and hands the last bytes on.
@@ -151,8 +168,6 @@ impl<W: io::Write> Writer<W> {
         self.tail()?;
         self.flush()?;
         self.out.flush()?;
-        self.time.dwell(0.0);
-        self.summary.print_time_s = self.time.seconds();
         self.summary.bytes = self.text.written();
         Ok(self.summary)
     }
@@ -169,12 +184,19 @@ impl<W: io::Write> Writer<W> {
         match step {
             Step::Motion(Motion::Extrude { to, width, role }) => self.extrude(to, width, role),
             Step::Motion(Motion::Travel { to }) => self.travel(to),
-            Step::Motion(Motion::Layer { z, height, .. }) => self.layer(z, height),
+            Step::Motion(Motion::Layer { index, z, height }) => self.layer(index, z, height),
             Step::Motion(Motion::Command(color)) => self.command(color),
             Step::Motion(Motion::Color(color)) => self.deposit(color),
             Step::Notice(color) => self.notice(color),
             Step::Tell { color, state } => self.tell(color, state),
             Step::Flow(flow) => self.flow(flow),
+        }
+    }
+
+    /// A line that tells the progress, where the firmware takes it.
+    fn mark_progress(&mut self, seconds: f64) {
+        if self.options.progress {
+            self.summary.progress.mark(seconds, &mut self.text);
         }
     }
 

@@ -62,6 +62,11 @@ impl Bead {
 
     pub(super) fn state(&mut self, flow: f64, folds: bool) {
         (self.state_flow, self.folded) = (flow, if folds { flow } else { 1.0 });
+        self.forget();
+    }
+
+    /// The next bead is worked out anew.
+    pub(super) fn forget(&mut self) {
         self.known = None;
     }
 
@@ -154,7 +159,9 @@ impl<W: io::Write> Writer<W> {
         bead.fed = bead.volume * bead.state_flow;
         let factor = self.machine.feed_factor();
         bead.units = bead.volume * bead.folded * factor / filament * Bead::E_UNITS;
-        bead.speed = self.machine.bead_speed(role, bead.fed, self.summary.layers <= 1);
+        let (state, first) = (Some(&self.heads.state), self.summary.layers <= 1);
+        let usual = self.machine.bead_speed(role, bead.fed, state, first);
+        bead.speed = self.pace.speed(role, usual);
         bead.feedrate = feedrate(bead.speed);
         bead.turns = self.machine.auger.turns(bead.speed * bead.fed);
         bead.known = Some((width, role));
@@ -265,7 +272,7 @@ impl<W: io::Write> Writer<W> {
         let speed = self.options.retraction.speed;
         let fed = by * self.machine.feed_factor();
         self.go(None, None, Some(Fixed::round(fed)?), feedrate(speed));
-        self.time.dwell(by.abs() / speed);
+        self.time.push_filament(by, speed);
         Ok(())
     }
 

@@ -25,9 +25,8 @@ pub struct WriterOptions {
     pub comments: Vec<String>,
     /// The palette as red, green and blue, for viewers; may be empty.
     pub colors: Vec<[u8; 3]>,
-    /// Layers of the print, where known: lets the progress be told.
-    pub total_layers: Option<u32>,
-    /// Whether `M73` tells the progress at each layer; needs `total_layers`.
+    /// Whether there are lines that tell the progress by `M73`, to be
+    /// [filled in](crate::ProgressLines::fill) after the print.
     pub progress: bool,
 }
 
@@ -45,8 +44,7 @@ impl WriterOptions {
             flow: [1.0; Role::ALL.len()],
             comments: Vec::new(),
             colors: Vec::new(),
-            total_layers: None,
-            progress: false,
+            progress: machine.dialect.progress,
         }
     }
 }

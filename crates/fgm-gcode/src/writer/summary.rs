@@ -1,6 +1,6 @@
 use fgm_core::{Bounds3, MAX_MATERIALS};
 
-use crate::{MachineKind, State};
+use crate::{MachineKind, ProgressLines, State};
 
 /// What a print came to. It covers the motions of the print, not the templates around it.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +29,10 @@ pub struct Summary {
     pub moves: u64,
     /// Bytes written.
     pub bytes: u64,
-    /// Estimated time, s, without heating up.
+    /// Estimated time, s; of the start what the profile says (`template.start_seconds`).
     pub print_time_s: f64,
+    /// Where the progress is told, once it is filled in.
+    pub progress: ProgressLines,
     /// Least and greatest position of an end of a bead, on the bed; empty where nothing was
     /// extruded.
     pub extents: Bounds3,
@@ -51,6 +53,7 @@ impl Summary {
             moves: 0,
             bytes: 0,
             print_time_s: 0.0,
+            progress: ProgressLines::default(),
             extents: Bounds3::EMPTY,
         }
     }

@@ -1,6 +1,7 @@
 ; a square in two colours
 ; printer duet-mixing
 ; design_offset = 122.5 122.5 0
+;M73 P--- R----
 T0
 M140 S60
 M568 P0 R205 S210 A2
@@ -96,6 +97,7 @@ G1 E1.50000 F2400
 ;WIDTH:0.45
 G1 Y126.500 E0.10155 F3600
 G1 E-1.50000 F2400
+;M73 P--- R----
 M568 P0 A0
 M140 S0
 M107

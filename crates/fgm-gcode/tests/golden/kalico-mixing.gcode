@@ -1,6 +1,7 @@
 ; a square in two colours
 ; printer kalico-mixing
 ; design_offset = 122.5 122.5 0
+;M73 P--- R----
 M140 S60
 M104 S210
 G21
@@ -98,6 +99,7 @@ G1 E1.50000 F2400
 ;WIDTH:0.45
 G1 Y126.500 E0.10155 F4200
 G1 E-1.50000 F2400
+;M73 P--- R----
 TURN_OFF_HEATERS
 M107
 G1 Z10.6 F600

@@ -1,6 +1,7 @@
 ; a square in two colours
 ; printer klipper-toolchanger
 ; design_offset = 147.5 147.5 0
+;M73 P--- R----
 M140 S60
 M104 T0 S215
 G21
@@ -106,6 +107,7 @@ G1 E0.80000 F2400
 ;WIDTH:0.45
 G1 Y151.500 E0.10155 F6600
 G1 E-0.80000 F2400
+;M73 P--- R----
 TURN_OFF_HEATERS
 M107
 G1 Z11.4 F600

@@ -1,6 +1,7 @@
 ; a square in two colours
 ; printer prusa-mk4s-lw-pla
 ; design_offset = 122.5 102.5 0
+;M73 P--- R----
 M17
 M862.1 P0.4
 M862.3 P "MK4S"
@@ -113,6 +114,7 @@ G1 E0.40000 F2100
 ;WIDTH:0.45
 G1 Y106.500 E0.09687 F2700
 G1 E-0.40000 F2100
+;M73 P--- R----
 M104 S0
 M140 S0
 M107

@@ -1,6 +1,7 @@
 ; a square in two colours
 ; printer prusa-xl-5t
 ; design_offset = 177.5 177.5 0
+;M73 P--- R----
 M17
 M862.1 T0 P0.4
 M862.3 P "XL"
@@ -124,6 +125,7 @@ G1 E0.80000 F2100
 ;WIDTH:0.45
 G1 Y181.500 E0.10155 F6600
 G1 E-0.80000 F2100
+;M73 P--- R----
 M107
 G1 Z11.4 F720
 P0 S1

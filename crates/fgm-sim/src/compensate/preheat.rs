@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use fgm_core::{ColorId, Motion, Point2, Role, bead};
-use fgm_gcode::{Machine, MachineKind, MotionQueue, State, Step};
+use fgm_gcode::{Machine, MachineKind, MotionQueue, Pace, State, Step};
 
 use crate::Thermal;
 
@@ -36,6 +36,7 @@ pub struct Preheat {
     at: Option<Point2>,
     height: f64,
     layers: u32,
+    pace: Pace,
     /// Whether the last bead was a purge tower's.
     purged: bool,
     /// Temperatures told, in order of time; those before `written` are out.
@@ -76,11 +77,17 @@ impl Preheat {
             at: None,
             height: 0.0,
             layers: 0,
+            pace: Pace::USUAL,
             purged: false,
             told: VecDeque::new(),
             written: 0,
             melt: Melt { seconds: 0.0, celsius, told: celsius, flow: 1.0 },
         })
+    }
+
+    /// Beads of the motions that come from here on go at this pace.
+    pub fn set_pace(&mut self, pace: Pace) {
+        self.pace = pace;
     }
 
     /// Takes the next motion and emits what no command can come before any more.
@@ -235,7 +242,9 @@ impl Preheat {
             Motion::Extrude { to, width, role } => {
                 self.purged = role == Role::PurgeTower;
                 let fed = bead::area(width, self.height) * self.melt.flow;
-                (to, self.machine.bead_speed(role, fed, self.layers <= 1))
+                let state = self.states.first();
+                let usual = self.machine.bead_speed(role, fed, state, self.layers <= 1);
+                (to, self.pace.speed(role, usual))
             }
             Motion::Color(_) | Motion::Command(_) => return 0.0,
         };

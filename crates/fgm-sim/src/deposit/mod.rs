@@ -83,7 +83,7 @@ impl Deposit {
         match event {
             Event::Bead(bead) => self.bead(bead, emit),
             Event::Travel(travel) => self.wait(travel.seconds),
-            Event::Pause { seconds } => self.wait(*seconds),
+            Event::Pause { seconds, .. } => self.wait(*seconds),
             Event::Heat(heat) => {
                 let nozzle = self.nozzle(heat.head);
                 nozzle.told = heat.celsius;

@@ -27,13 +27,13 @@ impl Follower {
             10 if !command.words().any(|w| matches!(w.letter, b'P' | b'L' | b'R' | b'X')) => {
                 let (length, speed) = self.machine.retraction;
                 self.heads.now().pull(length);
-                self.out.push_back(Event::Pause { seconds: length / speed });
+                self.out.push_back(Event::Pause { seconds: length / speed, filament: -length });
             }
             10 => self.tool_temperature(command),
             11 => {
                 let (length, speed) = self.machine.retraction;
                 self.heads.now().push();
-                self.out.push_back(Event::Pause { seconds: length / speed });
+                self.out.push_back(Event::Pause { seconds: length / speed, filament: length });
             }
             20 => self.place.unit = 25.4,
             21 => self.place.unit = 1.0,
@@ -61,6 +61,10 @@ impl Follower {
             }
             104 | 109 => {
                 self.nozzle_temperature(command, number == 109);
+                Ok(())
+            }
+            400 => {
+                self.out.push_back(Event::Pause { seconds: 0.0, filament: 0.0 });
                 Ok(())
             }
             163 => self.motors.stage(command),
@@ -191,7 +195,7 @@ impl Follower {
     fn dwell(&mut self, command: &Command<'_>) {
         let milliseconds = self.number(command, b'P').map(|ms| ms / 1000.0);
         let seconds = self.number(command, b'S').or(milliseconds).unwrap_or(0.0);
-        self.out.push_back(Event::Pause { seconds: seconds.max(0.0) });
+        self.out.push_back(Event::Pause { seconds: seconds.max(0.0), filament: 0.0 });
     }
 
     /// `G92`.

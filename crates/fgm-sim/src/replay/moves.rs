@@ -152,13 +152,13 @@ impl Follower {
                 let line = self.line;
                 self.out.push_back(Event::Travel(Travel { line, from, to, known, seconds }));
             } else if fed < 0.0 {
-                self.out.push_back(Event::Pause { seconds });
+                self.out.push_back(Event::Pause { seconds, filament: fed });
             }
             return;
         }
         self.check_hot();
         if length == 0.0 && out <= 0.0 {
-            self.out.push_back(Event::Pause { seconds });
+            self.out.push_back(Event::Pause { seconds, filament: fed });
             return;
         }
         if length > 0.0 && retracted > RETRACTED {

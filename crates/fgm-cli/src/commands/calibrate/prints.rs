@@ -173,7 +173,8 @@ fn write(
     options.offset = machine.bed.centering(&bounds);
     options.comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION")), command_line()];
     options.comments.extend(fgm::machine_comments(machine));
-    let mut output = Output::create(&print.output)?;
+    let open = if machine.dialect.progress { Output::to_fill } else { Output::create };
+    let mut output = open(&print.output)?;
     let fail = |e: GcodeError| match e {
         GcodeError::Io(e) => Failure::write(&print.output, &e),
         e => gcode_failure(&e),
@@ -182,7 +183,8 @@ fn write(
     for step in Lead::with_volume(machine, lead).over(motions.iter().copied()) {
         writer.push(step).map_err(fail)?;
     }
-    writer.finish().map_err(fail)?;
+    let summary = writer.finish().map_err(fail)?;
+    output.fill(&summary.progress)?;
     output.finish()
 }
 
