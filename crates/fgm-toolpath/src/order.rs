@@ -18,6 +18,10 @@ pub struct OrderOptions {
     pub roles: RoleOrder,
     /// Where loops of the outer wall start.
     pub seam: Seam,
+    /// The point that [`Seam::Aligned`] looks at, mm.
+    pub seam_point: Point2,
+    /// The layer, from 0: [`Seam::Random`] differs by it.
+    pub layer: u32,
     /// Changes of the nearest-neighbour order that are tried for each piece, to shorten the
     /// travels; 0 leaves that order as it is.
     pub improve: u32,
@@ -25,7 +29,13 @@ pub struct OrderOptions {
 
 impl Default for OrderOptions {
     fn default() -> Self {
-        Self { roles: RoleOrder::Any, seam: Seam::Nearest, improve: 64 }
+        Self {
+            roles: RoleOrder::Any,
+            seam: Seam::Nearest,
+            seam_point: Point2::ZERO,
+            layer: 0,
+            improve: 64,
+        }
     }
 }
 
@@ -53,6 +63,12 @@ pub enum Seam {
     Nearest,
     /// At the vertex of greatest y: one line up the back.
     Rear,
+    /// At the vertex nearest to [`OrderOptions::seam_point`], the same for all layers: one line,
+    /// along an edge of the part where the point lies beyond one.
+    Aligned,
+    /// Anywhere along the loop, evenly spread and the same every time: by the layer and by the
+    /// piece's place among those given.
+    Random,
     /// At the vertex with the sharpest turn, where a seam shows least.
     Sharpest,
 }
@@ -87,6 +103,9 @@ pub fn order_with(
             *rank = i;
         }
     }
+    if options.seam == Seam::Random {
+        scatter(&mut pieces, options.layer);
+    }
     let key = |p: &Piece| (rank[p.color.index()], p.color, class(p.role, options.roles));
     pieces.sort_by_key(key);
 
@@ -120,7 +139,7 @@ fn order_group(
     options: &OrderOptions,
     out: &mut Vec<Piece>,
 ) -> Point2 {
-    let mut ends = Ends::of(pieces, options.seam);
+    let mut ends = Ends::of(pieces, options);
     let mut near = Near::new(&ends.at);
     ends.link(&near);
     let mut legs = ends.tour(&mut near, start);
@@ -158,8 +177,52 @@ fn begun_at(mut piece: Piece, vertex: u32) -> Piece {
     piece
 }
 
+/// Begins every loop of the outer wall somewhere else.
+fn scatter(pieces: &mut [Piece], layer: u32) {
+    for (piece, i) in pieces.iter_mut().zip(0_u32..) {
+        let finite = piece.points.iter().all(|p| p.is_finite());
+        if finite && piece.role == Role::OuterWall && piece.is_loop() {
+            let share = share_of(u64::from(layer) << 32 | u64::from(i));
+            begin_along(&mut piece.points, share);
+        }
+    }
+}
+
+/// A number in 0..1 for every number given, evenly spread (the finaliser of splitmix64).
+fn share_of(number: u64) -> f64 {
+    let mut x = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^= x >> 31;
+    (x >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Turns a loop so that it begins at a share of its length, at a new vertex.
+fn begin_along(points: &mut Vec<Point2>, share: f64) {
+    let length: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let mut left = share * length;
+    for i in 1..points.len() {
+        let (a, b) = (points[i - 1], points[i]);
+        let step = a.distance(b);
+        if left < step {
+            let start = a.lerp(b, left / step);
+            points.pop();
+            let after = i % points.len();
+            points.rotate_left(after);
+            if start.distance(a) > MEETS {
+                points.insert(0, start);
+            } else {
+                points.rotate_right(1);
+            }
+            points.extend(points.first().copied());
+            return;
+        }
+        left -= step;
+    }
+}
+
 /// The vertex at which a loop has to start, if it has to.
-fn seam_of(piece: &Piece, seam: Seam) -> Option<usize> {
+fn seam_of(piece: &Piece, options: &OrderOptions) -> Option<usize> {
     let ring = &piece.points[..piece.points.len() - 1];
     if piece.role != Role::OuterWall {
         return None;
@@ -167,9 +230,11 @@ fn seam_of(piece: &Piece, seam: Seam) -> Option<usize> {
     let best = |key: &dyn Fn(usize) -> f64| {
         (0..ring.len()).max_by(|&a, &b| key(a).total_cmp(&key(b)).then(b.cmp(&a)))
     };
-    match seam {
+    match options.seam {
         Seam::Nearest => None,
+        Seam::Random => Some(0),
         Seam::Rear => best(&|i| ring[i].y),
+        Seam::Aligned => best(&|i| -ring[i].distance_squared(options.seam_point)),
         Seam::Sharpest => best(&|i| {
             let before = ring[i] - ring[(i + ring.len() - 1) % ring.len()];
             let after = ring[(i + 1) % ring.len()] - ring[i];
@@ -196,7 +261,7 @@ struct Ends {
 }
 
 impl Ends {
-    fn of(pieces: &[Piece], seam: Seam) -> Self {
+    fn of(pieces: &[Piece], options: &OrderOptions) -> Self {
         let count = pieces.len();
         let mut ends = Self {
             at: Vec::with_capacity(2 * count),
@@ -214,7 +279,7 @@ impl Ends {
                 continue;
             }
             if piece.is_loop() {
-                let seam = seam_of(piece, seam);
+                let seam = seam_of(piece, options);
                 let vertices = seam.map_or(0..last, |vertex| vertex..vertex + 1);
                 vertices.for_each(|vertex| ends.push(piece, i, vertex));
             } else if last > 0 {

@@ -73,9 +73,12 @@ fn seams_and_roles() {
         (Seam::Nearest, vec![outer()], "0:1,1 2,1 2,2 1,2 1,1"),
         (Seam::Rear, vec![outer()], "0:2,2 1,2 1,1 2,1 2,2"),
         (Seam::Sharpest, vec![piece(&spike, 0, Role::OuterWall)], "0:5,0.5 2,1 0,1 0,0 2,0 5,0.5"),
+        (Seam::Aligned, vec![outer()], "0:2,1 2,2 1,2 1,1 2,1"),
         (Seam::Rear, vec![piece(&SQUARE, 0, Role::InnerWall)], "0:1,1 2,1 2,2 1,2 1,1"),
+        (Seam::Random, vec![piece(&SQUARE, 0, Role::InnerWall)], "0:1,1 2,1 2,2 1,2 1,1"),
     ] {
-        let options = OrderOptions { seam, ..OrderOptions::default() };
+        let seam_point = Point2::new(9.0, 1.0);
+        let options = OrderOptions { seam, seam_point, ..OrderOptions::default() };
         assert_eq!(told(&order_with(pieces, &[], Point2::ZERO, &options)), want);
     }
     let all = [Role::Infill, Role::OuterWall, Role::InnerWall];
@@ -88,6 +91,26 @@ fn seams_and_roles() {
         let got = order_with(pieces, &[], Point2::ZERO, &options);
         assert_eq!(got.iter().map(|p| p.role).collect::<Vec<_>>(), want);
     }
+}
+
+/// Along a square of length 4, by the quarter that the seam falls into.
+#[test]
+fn random_seams_are_spread_and_repeat() {
+    let mut quarters = [0; 4];
+    for layer in 0..400 {
+        let options = OrderOptions { seam: Seam::Random, layer, ..OrderOptions::default() };
+        let run =
+            || order_with(vec![piece(&SQUARE, 0, Role::OuterWall)], &[], Point2::ZERO, &options);
+        let got = run();
+        assert_eq!(got, run());
+        assert!(got[0].is_loop() && (got[0].length() - 4.0).abs() < 1e-9, "{}", told(&got));
+        let start = got[0].points[0];
+        let side = [start.y == 1.0, start.x == 2.0, start.y == 2.0, start.x == 1.0];
+        quarters[side.iter().position(|on| *on).unwrap()] += 1;
+        let corners = SQUARE.iter().all(|&(x, y)| got[0].points.contains(&Point2::new(x, y)));
+        assert!(corners, "{}", told(&got));
+    }
+    assert!(quarters.iter().all(|n| (70..130).contains(n)), "{quarters:?}");
 }
 
 #[test]
@@ -141,8 +164,9 @@ proptest! {
         pieces in any_pieces(),
         colors in prop::collection::vec(0..5u16, 0..5),
         improve in 0..100u32,
+        seam in prop::sample::select(&[Seam::Nearest, Seam::Aligned, Seam::Rear, Seam::Sharpest][..]),
     ) {
-        let options = OrderOptions { improve, ..OrderOptions::default() };
+        let options = OrderOptions { improve, seam, ..OrderOptions::default() };
         let run = || order_with(pieces.clone(), &ids(&colors), Point2::ZERO, &options);
         let got = run();
         prop_assert_eq!(&got, &run());

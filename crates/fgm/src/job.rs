@@ -2,7 +2,7 @@ use fgm_contour::ContourOptions;
 use fgm_core::{Point2, Polygon};
 use fgm_field::Design;
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, Piece, order, skirt};
+use fgm_toolpath::{ClipperInset, Piece, order_with, skirt};
 
 use crate::{
     against,
@@ -58,7 +58,10 @@ impl Job<'_> {
         };
         let pieces = timed(&mut seconds.toolpath, || {
             let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
-            let pieces = order(pieces, &self.palette.order(layer.index), start);
+            let corner = self.design.bounds.max.truncate();
+            let options = self.settings.order_options(layer.index, corner);
+            let colors = self.palette.order(layer.index);
+            let pieces = order_with(pieces, &colors, start, &options);
             self.with_skirt(layer, region, pieces)
         });
         let area: f64 = region.iter().map(Polygon::area).sum();

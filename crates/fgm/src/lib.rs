@@ -75,8 +75,8 @@ pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
     AgainstSettings, CompensationSettings, ContourSettings, InfillSettings, LayerSettings,
-    LeadSettings, PaletteSettings, PurgeSettings, SETTINGS, SettingError, SettingInfo, Settings,
-    SkinSettings, SkirtSettings, SliceSettings, WallSettings,
+    LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS, SettingError,
+    SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
 };
 pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;

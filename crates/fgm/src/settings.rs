@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
 use fgm_contour::ContourOptions;
-use fgm_toolpath::{FaceFill, Pattern, SkirtOptions};
+use fgm_core::Point2;
+use fgm_toolpath::{FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
 
 /// One line of the list of settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,6 +147,15 @@ settings! {
         #[doc = "Widest bead, where the middle of a face needs one."]
         max_width: Option<f64> = None, "1.6 bead widths", "mm";
     }
+    #[doc = "The order of printing inside a colour."]
+    order: OrderSettings {
+        #[doc = "Which walls come first; any takes what is nearest."]
+        walls: RoleOrder = RoleOrder::Any, "\"any\"", "any | outer-first | inner-first";
+        #[doc = "Where loops of the outer wall that are of one colour start; walls of several colours start at a boundary. Aligned is the vertex nearest to seam_point on every layer."]
+        seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest";
+        #[doc = "The point of the aligned seam, x and y in the design's coordinates."]
+        seam_point: Option<[f64; 2]> = None, "the design's corner of greatest x and y", "[mm, mm]";
+    }
     #[doc = "Where the old colour goes, strategy sectioned."]
     purge: PurgeSettings {
         #[doc = "Whether to print purge towers."]
@@ -237,6 +247,18 @@ impl Settings {
         (0.5 * self.contour.resolution).clamp(1e-4, 0.1)
     }
 
+    /// How the pieces of a layer, from 0, are put in order. `corner` is the design's of greatest x
+    /// and y.
+    pub(crate) fn order_options(&self, layer: usize, corner: Point2) -> OrderOptions {
+        OrderOptions {
+            roles: self.order.walls,
+            seam: self.order.seam,
+            seam_point: self.order.seam_point.map_or(corner, Point2::from),
+            layer: layer as u32,
+            ..OrderOptions::default()
+        }
+    }
+
     /// The loops around the part.
     pub(crate) fn skirt_options(&self) -> SkirtOptions {
         SkirtOptions {
@@ -276,6 +298,9 @@ impl Settings {
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
         within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
         within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;
+        for x in self.order.seam_point.into_iter().flatten() {
+            within("order.seam_point", x, -1e6..=1e6, "-1000000 to 1000000 mm")?;
+        }
         within("palette.auto_short_share", self.palette.auto_short_share, 0.0..=1.0, "0 to 1")?;
         within("palette.short_piece", self.palette.short_piece, 0.0..=1e6, "0 or more")?;
         let (least, most) = self.bead_widths();

@@ -333,6 +333,8 @@ impl<'a> Slicer<'a> {
         resolved.palette.colors = Some(ColorCount::Count(palette.len()));
         resolved.against.min_width = Some(least);
         resolved.against.max_width = Some(most);
+        let corner = self.design.bounds.max.truncate();
+        resolved.order.seam_point = Some(self.settings.order.seam_point.unwrap_or(corner.into()));
         resolved.purge.enabled = Some(purge::wanted(self.machine, self.settings));
         let purge = purge::largest(self.machine, self.settings, lead, palette);
         resolved.purge.volume = Some(purge);

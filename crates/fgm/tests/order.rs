@@ -1,0 +1,69 @@
+//! Where walls start and which come first, in written G-code.
+
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use common::{Bead, deposit, parse, settings, slice};
+use fgm::{
+    Settings, Strategy,
+    core::Point2,
+    toolpath::{RoleOrder, Seam},
+};
+
+/// Colours change with height only, so that walls are whole loops.
+const BOX: &str = r#"fgrade(["z/10 + 0.5", "0.5 - z/10"], ["a", "b"]) { cube(10); }"#;
+
+fn beads(change: impl Fn(&mut Settings)) -> Vec<Bead> {
+    let mut settings = settings(Strategy::Sectioned, 4);
+    settings.purge.enabled = Some(false);
+    settings.slice.last_layer = Some(12);
+    change(&mut settings);
+    deposit(&slice(&parse(BOX), "generic-mixing", &settings).1).beads
+}
+
+fn is_outer(bead: &Bead) -> bool {
+    bead.role == "External perimeter"
+}
+
+/// Where the outer wall starts, layer by layer.
+fn seams(beads: &[Bead]) -> Vec<Point2> {
+    beads
+        .chunk_by(|a, b| a.layer == b.layer)
+        .map(|l| l.iter().find(|b| is_outer(b)).unwrap().from)
+        .collect()
+}
+
+#[test]
+fn seams_are_where_they_are_asked_for() {
+    let corner = |x: f64, y: f64| Point2::new(4.8 * x, 4.8 * y);
+    let at = |seam, point: Option<[f64; 2]>| {
+        seams(&beads(|s| (s.order.seam, s.order.seam_point) = (seam, point)))
+    };
+    for (seam, point, want) in [
+        (Seam::Aligned, None, corner(1.0, 1.0)),
+        (Seam::Aligned, Some([-50.0, 40.0]), corner(-1.0, 1.0)),
+    ] {
+        let seams = at(seam, point);
+        assert_eq!(seams.len(), 12);
+        assert!(seams.iter().all(|p| p.distance(want) < 0.01), "{seam:?}: {seams:?}");
+    }
+    let rear = at(Seam::Rear, None);
+    assert!(rear.iter().all(|p| (p.y - 4.8).abs() < 0.01), "{rear:?}");
+    let random = at(Seam::Random, None);
+    let apart = random.windows(2).filter(|w| w[0].distance(w[1]) > 1.0).count();
+    assert!(apart >= 8, "{random:?}");
+}
+
+#[test]
+fn walls_come_in_the_order_asked_for() {
+    for (walls, outer_first) in [(RoleOrder::OuterFirst, true), (RoleOrder::InnerFirst, false)] {
+        let beads = beads(|s| s.order.walls = walls);
+        for layer in beads.chunk_by(|a, b| a.layer == b.layer) {
+            let mut walls = layer.iter().filter(|b| is_outer(b) || b.role == "Perimeter");
+            assert_eq!(is_outer(walls.next().unwrap()), outer_first, "{walls:?}");
+            let fill = layer.iter().position(|b| !is_outer(b) && b.role != "Perimeter").unwrap();
+            assert!(layer[fill..].iter().all(|b| !is_outer(b)), "{walls:?}");
+        }
+    }
+}
