@@ -1,13 +1,12 @@
 use crate::contact::{Contacts, Segment};
 use crate::lines::{Line, Lines};
-use fgm_core::{Point2, Polygon, Polyline, Ring};
+use fgm_core::{Point2, Polygon, Polyline, Ring, long_chords};
 
 /// A ring with fewer vertices: each removed vertex lies within `tolerance` of the result, and the
 /// result within `tolerance` of the ring.
 ///
 /// A ring that does not cross or touch itself still does not; at least 3 of its vertices stay.
-/// After Douglas and Peucker, Cartographica 10 (1973), with chords that would touch another taken
-/// back. A tolerance that is not above 0 changes nothing.
+/// Chords as [`long_chords`] finds them, with those that would touch another taken back. A tolerance that is not above 0 changes nothing.
 pub fn simplify_ring(ring: &Ring, tolerance: f64) -> Ring {
     let mut lines = Lines::default();
     lines.push(&ring.points, true, 0);
@@ -39,11 +38,16 @@ pub fn simplify_polygons(polygons: &[Polygon], tolerance: f64) -> Vec<Polygon> {
         .collect()
 }
 
+/// The cosine of the least turn, 30 degrees, that is a corner. Smooth lines turn by less at a kept
+/// vertex, but where their bends are not much wider than the tolerance.
+const SHARP: f64 = 0.866;
+
 /// Removes vertices from many lines at once.
 #[derive(Debug, Default)]
 pub(crate) struct Simplifier {
     keep: Vec<bool>,
-    stack: Vec<(usize, usize)>,
+    /// Of one line.
+    kept: Vec<usize>,
     segments: Vec<Segment>,
     /// For each segment: the first and last of its line's vertices that it stands for.
     spans: Vec<(u32, u32, u32)>,
@@ -59,14 +63,14 @@ impl Simplifier {
         self.keep.clear();
         self.keep.resize(lines.points.len(), false);
         for line in &lines.list {
-            self.mark(lines, line, tolerance * tolerance);
+            self.mark(lines, line, tolerance);
         }
         while self.take_back(lines) {}
         self.compact(lines);
     }
 
     /// Marks the vertices of one line that stay.
-    fn mark(&mut self, lines: &Lines, line: &Line, limit: f64) {
+    fn mark(&mut self, lines: &Lines, line: &Line, tolerance: f64) {
         let points = lines.points(line);
         let n = points.len();
         let keep = &mut self.keep[line.from..line.to];
@@ -74,39 +78,14 @@ impl Simplifier {
             keep.fill(true);
             return;
         }
-        let (first, second) = if line.closed { anchors(points) } else { (0, n - 1) };
-        keep[first] = true;
-        keep[second] = true;
-        self.stack.push((first, second));
-        if line.closed {
-            self.stack.push((second, first + n));
-        }
-        let mut kept = 2;
-        while let Some((from, to)) = self.stack.pop() {
-            let (a, b) = (points[from % n], points[to % n]);
-            let (mut farthest, mut most) = (0, limit);
-            for k in from + 1..to {
-                let d = distance_squared(points[k % n], a, b);
-                if d > most {
-                    (farthest, most) = (k, d);
-                }
-            }
-            if farthest > 0 {
-                keep[farthest % n] = true;
-                kept += 1;
-                self.stack.push((from, farthest));
-                self.stack.push((farthest, to));
-            }
-        }
-        if line.closed && kept < 3 {
-            let (a, b) = (points[first], points[second]);
-            let off = |k: &usize| distance_squared(points[*k], a, b);
-            let third = (0..n)
-                .filter(|k| *k != first && *k != second)
-                .max_by(|i, j| off(i).total_cmp(&off(j)));
-            third.into_iter().for_each(|k| keep[k] = true);
+        self.kept.clear();
+        long_chords(points, line.closed, tolerance, |k| self.kept.push(k));
+        sharpen(points, line.closed, &mut self.kept, tolerance);
+        self.kept.iter().for_each(|&k| keep[k] = true);
+        if line.closed && self.kept.len() < 3 {
+            keep_triangle(points, keep);
         } else if line.closed {
-            release(points, keep, [first, second], limit);
+            release(points, keep, tolerance);
         }
     }
 
@@ -171,38 +150,59 @@ impl Simplifier {
     }
 }
 
-/// Two vertices of a ring that stay: the least by x, then y, which is a corner of its hull, and
-/// the one farthest from it.
-fn anchors(points: &[Point2]) -> (usize, usize) {
-    let least = |a: &Point2, b: &Point2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-    let first = (0..points.len()).min_by(|&i, &j| least(&points[i], &points[j])).unwrap_or(0);
-    let off = |i: usize| points[i].distance_squared(points[first]);
-    let second = (0..points.len())
-        .filter(|&i| i != first)
-        .max_by(|&i, &j| off(i).total_cmp(&off(j)))
-        .unwrap_or(first);
-    (first.min(second), first.max(second))
-}
-
-/// Drops the anchors of a ring where the chord past them will do: rounding may have put the least
-/// vertex amid a straight side.
-fn release(points: &[Point2], keep: &mut [bool], anchors: [usize; 2], limit: f64) {
-    let n = points.len();
-    for anchor in anchors {
-        let kept = |k: &usize| keep[*k % n];
-        let (after, before) =
-            ((anchor + 1..anchor + n).find(kept), (anchor + 1..anchor + n).rev().find(kept));
-        let (Some(after), Some(before)) = (after, before) else { continue };
-        // Another two vertices at least must be left beside the chord.
-        if keep.iter().filter(|k| **k).count() <= 3 {
-            return;
+/// Puts kept vertices where a line turns sharply on the corner itself: long chords go past it.
+fn sharpen(points: &[Point2], closed: bool, kept: &mut [usize], tolerance: f64) {
+    let (n, m) = (points.len(), kept.len());
+    if m < 3 {
+        return;
+    }
+    let limit = tolerance * tolerance;
+    let at = |k: usize| points[k % n];
+    for i in if closed { 0..m } else { 1..m - 1 } {
+        let (before, k, after) = (kept[(i + m - 1) % m], kept[i], kept[(i + 1) % m]);
+        let (u, v) = (at(k) - at(before), at(after) - at(k));
+        if u.dot(v) > SHARP * (u.length_squared() * v.length_squared()).sqrt() {
+            continue;
         }
-        let (a, b) = (points[before % n], points[after % n]);
-        let near = |k: usize| distance_squared(points[k % n], a, b) <= limit;
-        if (before + 1..after + n).all(near) {
-            keep[anchor] = false;
+        // Counted on past the ring's first vertex.
+        let (from, to) = (before, if after > before { after } else { after + n });
+        let off = |j: &usize| distance_squared(at(*j), at(from), at(to));
+        let Some(corner) = (from + 1..to).max_by(|i, j| off(i).total_cmp(&off(j))) else {
+            continue;
+        };
+        let near = |j: usize, a: usize, b: usize| distance_squared(at(j), at(a), at(b)) <= limit;
+        if (from + 1..corner).all(|j| near(j, from, corner))
+            && (corner + 1..to).all(|j| near(j, corner, to))
+        {
+            kept[i] = corner % n;
         }
     }
+}
+
+/// Keeps three vertices of a ring that would keep fewer: the first, the one farthest from it, and
+/// the one farthest from the chord between them.
+fn keep_triangle(points: &[Point2], keep: &mut [bool]) {
+    let first = points[0];
+    let farthest = |off: &dyn Fn(usize) -> f64| {
+        (1..points.len()).max_by(|&i, &j| off(i).total_cmp(&off(j))).unwrap_or(0)
+    };
+    let second = farthest(&|i| points[i].distance_squared(first));
+    let third = farthest(&|i| distance_squared(points[i], first, points[second]));
+    [0, second, third].into_iter().for_each(|k| keep[k] = true);
+}
+
+/// Drops the vertex where a ring was begun if the chord past it will do.
+fn release(points: &[Point2], keep: &mut [bool], tolerance: f64) {
+    let n = points.len();
+    let kept = |k: &usize| keep[*k];
+    let (Some(after), Some(before)) = ((1..n).find(kept), (1..n).rev().find(kept)) else { return };
+    // Another two vertices at least must be left beside the chord.
+    if keep.iter().filter(|k| **k).count() <= 3 {
+        return;
+    }
+    let (a, b) = (points[before], points[after]);
+    let near = |k: usize| distance_squared(points[k % n], a, b) <= tolerance * tolerance;
+    keep[0] = !(before + 1..after + n).all(near);
 }
 
 /// From a point to a segment, squared.

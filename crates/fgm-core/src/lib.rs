@@ -1,6 +1,6 @@
 //! The words that the `fgm` crates share, and the traits at the seams between them.
 //!
-//! Nothing here computes anything worth naming: the crates that do (`fgm-field`, `fgm-contour`,
+//! Little here computes anything worth naming: the crates that do (`fgm-field`, `fgm-contour`,
 //! `fgm-arrange`, `fgm-palette`, `fgm-toolpath`, `fgm-gcode`) depend on this one and not on each
 //! other, so that each can be used alone and each can be swapped.
 //!
@@ -9,7 +9,7 @@
 //! | group | items |
 //! |---|---|
 //! | space | [`Point2`], [`Point3`], [`Bounds2`], [`Bounds3`], [`Interval`] |
-//! | shapes | [`Ring`], [`Polyline`], [`Polygon`], [`TriangleMesh`] |
+//! | shapes | [`Ring`], [`Polyline`], [`Polygon`], [`TriangleMesh`], [`long_chords`] |
 //! | material | [`Mixture`], [`ColorId`], [`Band`] |
 //! | printing | [`Role`], [`Motion`], [`bead`] |
 //! | seams | [`Field`], [`PlanarField`], [`MaterialField`], [`Sectioner`] |
@@ -39,6 +39,7 @@
 
 pub mod bead;
 mod bounds;
+mod chord;
 mod color;
 mod field;
 mod interval;
@@ -50,6 +51,7 @@ mod role;
 mod section;
 
 pub use bounds::{Bounds2, Bounds3};
+pub use chord::long_chords;
 pub use color::{Band, ColorId};
 pub use field::{Field, MaterialError, MaterialField, PlanarField, Slice};
 pub use interval::Interval;
