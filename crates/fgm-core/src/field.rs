@@ -26,6 +26,12 @@ pub trait Field: Sync {
         Interval::EVERYTHING
     }
 
+    /// Whether the value may differ between points above each other; `false` only where it surely
+    /// does not, so that what was found in one layer holds in all.
+    fn varies_with_z(&self) -> bool {
+        true
+    }
+
     /// The field of one layer, at height `z`.
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {
         Box::new(Slice { field: self, z })

@@ -120,6 +120,10 @@ impl Field for ExprField {
         })
     }
 
+    fn varies_with_z(&self) -> bool {
+        self.reads_z || self.inputs.iter().any(|input| input.varies_with_z())
+    }
+
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {
         let tape = if self.reads_z {
             let layer = self.expr.at_z(z);

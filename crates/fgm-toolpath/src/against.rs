@@ -55,7 +55,8 @@ impl AgainstOptions {
 /// bead then lies half its width inside the true outline.
 ///
 /// What the loops leave, and faces too thin for loops, takes one or two beads of varying width
-/// ([`gap_fill`](crate::gap_fill)). Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
+/// ([`gap_fill`](crate::gap_fill)), two wherever two fit. [`route`](crate::route) joins the lines to
+/// few. Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
 pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) -> Vec<Path> {
     let AgainstOptions { width, height, .. } = *options;
     let spacing = bead::spacing(width, height);
@@ -77,7 +78,8 @@ pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) ->
         out.extend(infill(&peel.rest, &lines, inset));
     }
     let AgainstOptions { min_width, max_width, .. } = *options;
-    out.extend(fill_thin(&peel.thin, &GapOptions { width, height, min_width, max_width }, 0.0));
+    let gaps = GapOptions { width, height, min_width, max_width, loops: true };
+    out.extend(fill_thin(&peel.thin, &gaps, 0.0));
     out
 }
 

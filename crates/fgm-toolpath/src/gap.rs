@@ -28,6 +28,9 @@ pub struct GapOptions {
     pub min_width: f64,
     /// The widest bead the nozzle lays, mm; wider gaps take two beads or more.
     pub max_width: f64,
+    /// Whether two beads are laid wherever two fit, and not only where one does not: side by side
+    /// they make a loop, which ends where it begins ([`route`](crate::route)).
+    pub loops: bool,
 }
 
 /// Beads along the middle of thin regions.
@@ -81,6 +84,7 @@ struct Fill {
     round: f64,
     least: f64,
     most: f64,
+    loops: bool,
     hair: f64,
 }
 
@@ -90,7 +94,7 @@ impl Fill {
         let round = options.width - spacing;
         let least = bead::spacing(options.min_width, options.height);
         let most = bead::spacing(options.max_width, options.height).max(least);
-        Self { spacing, round, least, most, hair }
+        Self { spacing, round, least, most, loops: options.loops, hair }
     }
 
     /// How many beads fill a thickness; 0 where it is too thin for one.
@@ -98,7 +102,7 @@ impl Fill {
         if thickness < self.least {
             return 0;
         }
-        let one = self.most.min(1.6 * self.spacing);
+        let one = self.most.min(if self.loops { 2.0 * self.least } else { 1.6 * self.spacing });
         let even = (thickness / self.spacing - 0.1).round() as usize;
         if thickness <= one { 1 } else { even.clamp(2, 64) }
     }

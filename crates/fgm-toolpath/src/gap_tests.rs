@@ -2,7 +2,7 @@ use super::*;
 use crate::region_shapes::*;
 
 fn options() -> GapOptions {
-    GapOptions { width: WIDTH, height: HEIGHT, min_width: 0.24, max_width: 0.64 }
+    GapOptions { width: WIDTH, height: HEIGHT, min_width: 0.24, max_width: 0.64, loops: false }
 }
 
 #[test]
@@ -25,6 +25,17 @@ fn a_thin_ring_takes_one_closed_bead() {
     assert!(paths[0].points.iter().all(|p| (p.length() - 9.8).abs() < 0.02));
     let fills = bead::spacing(paths[0].width, HEIGHT);
     assert!((fills - 0.4).abs() < 0.01, "{fills}");
+}
+
+#[test]
+fn a_gap_takes_two_beads_where_two_fit_and_loops_are_asked_for() {
+    let gap = [rectangle(0.0, 0.0, 20.0, 0.5)];
+    for (loops, count) in [(false, 1), (true, 2)] {
+        let paths = gap_fill(&gap, &GapOptions { loops, ..options() });
+        assert_eq!(paths.len(), count);
+        let share = volume(&paths) / (gap[0].area() * HEIGHT);
+        assert!((share - 1.0).abs() < 0.04, "{share}");
+    }
 }
 
 #[test]

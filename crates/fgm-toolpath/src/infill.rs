@@ -168,6 +168,7 @@ fn gaps(options: &InfillOptions) -> GapOptions {
         height: options.height,
         min_width: 0.6 * options.width,
         max_width: 1.6 * options.width,
+        loops: false,
     }
 }
 

@@ -21,10 +21,10 @@
 //! | lines | [`Path`] before it has a colour, [`Piece`] after |
 //! | borders | [`Inset`] (the seam), [`ClipperInset`] (its default), [`region`] (booleans) |
 //! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`gap_fill`] |
-//! | lines of a face | [`against`] |
+//! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`] |
-//! | order | [`order`], [`order_with`], [`connect`] |
-//! | beside the part | [`Towers`], [`skirt`], [`brim`] |
+//! | order | [`order`], [`order_with`], [`order_routes`], [`connect`] |
+//! | beside the part | [`Towers`], [`skirt`] |
 //! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
 //!
 //! # Volume
@@ -60,7 +60,6 @@
 //! ```
 
 mod against;
-mod brim;
 mod error;
 mod face_fill;
 mod gap;
@@ -68,11 +67,13 @@ mod infill;
 mod inset;
 mod order;
 mod order_near;
+mod order_routes;
 mod path;
 mod plan;
 pub mod region;
 #[cfg(test)]
 mod region_shapes;
+mod route;
 mod section;
 mod section_runs;
 mod skins;
@@ -84,15 +85,16 @@ mod walls;
 mod zipper;
 
 pub use against::{AgainstOptions, against};
-pub use brim::{BrimOptions, brim};
 pub use error::ToolpathError;
 pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};
 pub use infill::{Infill, InfillOptions, Pattern, infill};
 pub use inset::{ClipperInset, Inset};
 pub use order::{OrderOptions, RoleOrder, Seam, order, order_with};
+pub use order_routes::order_routes;
 pub use path::{Path, Piece};
 pub use plan::{LayerPlan, LayerStats, Motions, SHORT_PIECE};
+pub use route::route;
 pub use section::{SectionOptions, section};
 pub use skins::{Skins, skins, skins_with};
 pub use skirt::{SkirtOptions, skirt};

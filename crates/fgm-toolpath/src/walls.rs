@@ -64,6 +64,7 @@ pub fn walls(region: &[Polygon], options: &WallOptions, inset: &dyn Inset) -> Wa
             height: options.height,
             min_width: options.min_width,
             max_width: options.max_width,
+            loops: false,
         },
         0.0,
     ));

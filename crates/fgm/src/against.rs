@@ -1,7 +1,7 @@
 //! Strategy 2: every face filled against the gradient.
 
 use fgm_core::{Band, Polygon, bead};
-use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against};
+use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against, route};
 use rayon::prelude::*;
 
 use crate::{
@@ -9,13 +9,13 @@ use crate::{
     stages::timed,
 };
 
-/// The pieces of a layer, before ordering.
-pub(crate) fn pieces(
+/// The pieces of a layer, a round for each face, before ordering.
+pub(crate) fn routes(
     job: &Job<'_>,
     layer: &Layer,
     region: &[Polygon],
     seconds: &mut StageSeconds,
-) -> Result<(Vec<Piece>, usize), SliceError> {
+) -> Result<(Vec<Vec<Piece>>, usize), SliceError> {
     let settings = job.settings;
     let width = settings.layer.bead_width;
     // Faces are filled up to half a spacing from their border, so that neighbours' beads touch by
@@ -37,10 +37,10 @@ pub(crate) fn pieces(
         let fill = |(band, face): &(Band, Polygon)| -> Vec<Piece> {
             let paths = against(std::slice::from_ref(face), &options, &job.inset);
             let simple = |path: Path| path.simplified(settings.contour.resolution);
-            paths.into_iter().map(|path| simple(path).in_color(band.first)).collect()
+            let paths = route(paths.into_iter().map(simple).collect(), width, layer.height);
+            paths.into_iter().map(|path| path.in_color(band.first)).collect()
         };
         // In parallel, so that no thread waits while another fills the last layer.
-        let fills: Vec<_> = faces.par_iter().map(fill).collect();
-        Ok((fills.into_iter().flatten().collect(), faces.len()))
+        Ok((faces.par_iter().map(fill).collect(), faces.len()))
     })
 }

@@ -1,10 +1,10 @@
+use std::borrow::Cow;
+
 use fgm_arrange::{ArrangeOptions, Arrangement, Chain, FaceId};
-use fgm_contour::{ContourOptions, LevelLines, isolines};
-use fgm_core::{Band, Bounds2, MaterialField, Point2, Polygon, Polyline, Sectioner, Span};
-use fgm_palette::Palette;
+use fgm_core::{Band, MaterialField, Point2, Polygon, Sectioner, Span};
 
 use crate::{
-    boundaries::{BoundaryField, boundary_fields},
+    boundary_lines::BoundaryLine,
     error::SliceError,
     job::Job,
     layers::Layer,
@@ -39,7 +39,7 @@ impl GradedLayer {
         let material = job.design.fractions.as_ref();
         let boundaries = timed(&mut seconds.contour, || {
             check_material(region, z, material)?;
-            palette_boundaries(region, z, material, palette, &job.isolines)
+            job.boundaries.in_layer(region, z)
         })?;
         timed(&mut seconds.arrange, || {
             let arrangement = arrange(region, &boundaries)?;
@@ -113,44 +113,18 @@ pub(crate) fn check_material(
     Ok(())
 }
 
-/// The lines at which the palette changes, inside the region's bounds.
-fn palette_boundaries(
-    region: &[Polygon],
-    z: f64,
-    material: &dyn MaterialField,
-    palette: &Palette,
-    options: &ContourOptions,
-) -> Result<Vec<(bool, Vec<Point2>)>, SliceError> {
-    let bounds = region.iter().fold(Bounds2::EMPTY, |b, p| b.union(&p.bounds()));
-    let mut lines = Vec::new();
-    if bounds.is_empty() {
-        return Ok(lines);
-    }
-    let window = bounds.grown(options.cell);
-    let mut add = |found: Vec<LevelLines>| {
-        for level in found {
-            lines.extend(level.rings.into_iter().map(|ring| (true, ring.points)));
-            lines.extend(level.lines.into_iter().map(|Polyline { points }| (false, points)));
-        }
-    };
-    for BoundaryField { field, levels } in boundary_fields(material, palette, z) {
-        add(isolines(field.as_ref(), &window, &levels, options)?);
-    }
-    Ok(lines)
-}
-
 fn arrange(
     region: &[Polygon],
-    boundaries: &[(bool, Vec<Point2>)],
+    boundaries: &[Cow<'_, BoundaryLine>],
 ) -> Result<Arrangement<Line>, SliceError> {
     let outlines = region.iter().flat_map(Polygon::rings).map(|ring| Chain {
         points: &ring.points,
         closed: true,
         label: Line::Outline,
     });
-    let boundaries = boundaries.iter().map(|(closed, points)| Chain {
-        points,
-        closed: *closed,
+    let boundaries = boundaries.iter().map(|line| Chain {
+        points: &line.points,
+        closed: line.closed,
         label: Line::Boundary,
     });
     let chains: Vec<_> = outlines.chain(boundaries).collect();

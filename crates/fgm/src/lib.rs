@@ -36,13 +36,13 @@
 mod against;
 mod ahead;
 mod boundaries;
+mod boundary_lines;
 mod choice;
 mod colors;
 mod cooling;
 mod error;
 mod extent;
 mod field_sections;
-mod foot;
 mod graded;
 mod head;
 mod inspect;
@@ -75,9 +75,9 @@ pub use progress::{Progress, Quiet};
 pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
-    AgainstSettings, BrimSettings, CompensationSettings, ContourSettings, InfillSettings,
-    LayerSettings, LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS,
-    SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
+    AgainstSettings, CompensationSettings, ContourSettings, InfillSettings, LayerSettings,
+    LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS, SettingError,
+    SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
 };
 pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;

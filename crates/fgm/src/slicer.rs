@@ -8,6 +8,7 @@ use fgm_toolpath::{ClipperInset, Inset};
 
 use crate::{
     ahead::Ahead,
+    boundary_lines::BoundaryLines,
     choice::{ColorCount, Strategy, Zipper},
     colors,
     cooling::Cooling,
@@ -117,12 +118,11 @@ impl<'a> Slicer<'a> {
         placement::check(&part, &bed, &self.machine.name)?;
         let threads = pool.current_num_threads();
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
-        let mut job = self.job(&outliner, &palette, layers, threads);
+        let job = self.job(&outliner, &palette, layers, threads);
 
         let mut offset = self.machine.bed.centering(&part);
         if range.start == 0 {
             range.start = empty_below(&job, range.end)?;
-            job.first = range.start;
             if range.start > 0 {
                 // The part stands on the first layer that can be printed.
                 let first = layers.get(range.start);
@@ -283,8 +283,8 @@ impl<'a> Slicer<'a> {
             layers,
             outlines: OutlineWindow::new(outliner, span.min(layers.count())),
             isolines: self.settings.isoline_options(),
+            boundaries: BoundaryLines::new(self.design, palette, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
-            first: 0,
         }
     }
 

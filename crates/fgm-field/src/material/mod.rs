@@ -47,6 +47,10 @@ impl Field for FractionOf {
         self.field().bounds(cell)
     }
 
+    fn varies_with_z(&self) -> bool {
+        self.field().varies_with_z()
+    }
+
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {
         self.field().at_z(z)
     }

@@ -25,6 +25,11 @@ impl Frame {
         Ok(Self { inverse, level })
     }
 
+    /// Whether the vertical stays vertical.
+    pub(crate) fn upright(&self) -> bool {
+        self.inverse.z_axis.x == 0.0 && self.inverse.z_axis.y == 0.0
+    }
+
     /// A point in the field's own coordinates.
     pub(crate) fn local(&self, p: Point3) -> Point3 {
         self.inverse.transform_point3(p)
@@ -160,6 +165,10 @@ impl Field for Placed {
         self.field.bounds(&self.frame.local_box(cell))
     }
 
+    fn varies_with_z(&self) -> bool {
+        !self.frame.upright() || self.field.varies_with_z()
+    }
+
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {
         match level(&self.field, &self.frame, z) {
             Some(level) => Box::new(level),
@@ -208,6 +217,10 @@ impl Field for Transformed {
     fn bounds(&self, cell: &Bounds3) -> Interval {
         let range = self.field.bounds(&self.frame.local_box(cell));
         Scale(self.scale).apply_range(range)
+    }
+
+    fn varies_with_z(&self) -> bool {
+        !self.frame.upright() || self.field.varies_with_z()
     }
 
     fn at_z(&self, z: f64) -> Box<dyn PlanarField + '_> {

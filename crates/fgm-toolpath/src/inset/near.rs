@@ -13,8 +13,8 @@ pub(crate) const NO_EDGE: u32 = u32::MAX;
 /// No edge is cut into more parts than this.
 const MOST_PARTS: f64 = 1e4;
 
-/// The edges of a region's rings, long ones cut into parts, each in the cell of its middle: one
-/// place a part, side by side with the others of its row of cells.
+/// Edges, long ones cut into parts, each in the cell of its middle: one place a part, side by side
+/// with the others of its row of cells.
 pub(crate) struct NearBorder {
     origin: Point2,
     /// Cells a millimetre.
@@ -36,10 +36,19 @@ struct Part {
 }
 
 impl NearBorder {
-    /// For questions about distances of about `reach` mm.
+    /// The edges of a region's rings, for questions about distances of about `reach` mm.
     pub(crate) fn new(region: &[Polygon], reach: f64) -> Self {
+        Self::of(&region, reach)
+    }
+
+    /// Any edges, for questions about distances of about `reach` mm.
+    pub(crate) fn of_edges(edges: &[(Point2, Point2)], reach: f64) -> Self {
+        Self::of(&edges, reach)
+    }
+
+    fn of(all: &impl Edges, reach: f64) -> Self {
         let (mut edges, mut length, mut bounds) = (0, 0.0, Bounds2::EMPTY);
-        for_each_edge(region, |from, to, _| {
+        all.each(|from, to, _| {
             edges += 1;
             length += from.distance(to);
             bounds = Bounds2 { min: bounds.min.min(to), max: bounds.max.max(to) };
@@ -47,7 +56,7 @@ impl NearBorder {
         let scale = reach.max(length / f64::from(edges.max(1)));
         let mut parts = Vec::with_capacity(edges as usize + (length / scale) as usize / 2);
         let mut longest: f64 = 0.0;
-        for_each_edge(region, |from, to, edge| {
+        all.each(|from, to, edge| {
             longest = longest.max(cut(from, to, edge, LONGEST * scale, &mut parts));
         });
         let half = longest.sqrt() * 0.5;
@@ -103,6 +112,23 @@ impl NearBorder {
         (((y - self.origin.y) * self.per_mm) as usize).min(self.rows - 1)
     }
 
+    /// Visits every edge that may come within `reach` mm of a point, by its number; some more than
+    /// once.
+    pub(crate) fn around(&self, p: Point2, reach: f64, mut visit: impl FnMut(u32)) {
+        let reach = reach + self.half;
+        let (left, right) = (self.column(p.x - reach), self.column(p.x + reach));
+        for row in self.row(p.y - reach)..=self.row(p.y + reach) {
+            let cells = row * self.columns;
+            let range = self.starts[cells + left] as usize..self.starts[cells + right + 1] as usize;
+            for part in &self.parts[range] {
+                let middle = (part.from + part.to) * 0.5;
+                if middle.distance_squared(p) <= reach * reach {
+                    visit(part.edge);
+                }
+            }
+        }
+    }
+
     /// Whether any edge but those to `skip` (by their numbers, counted through the rings, or
     /// [`NO_EDGE`]) comes closer than `distance` to the segment from `a` to `b`.
     pub(crate) fn any_within(&self, a: Point2, b: Point2, distance: f64, skip: [u32; 3]) -> bool {
@@ -126,7 +152,24 @@ impl NearBorder {
     }
 }
 
-/// Every edge of the region's rings, with its number.
+/// Numbered edges.
+trait Edges {
+    fn each(&self, visit: impl FnMut(Point2, Point2, u32));
+}
+
+impl Edges for &[(Point2, Point2)] {
+    fn each(&self, mut visit: impl FnMut(Point2, Point2, u32)) {
+        (0..).zip(self.iter()).for_each(|(number, &(from, to))| visit(from, to, number));
+    }
+}
+
+/// Ring by ring.
+impl Edges for &[Polygon] {
+    fn each(&self, visit: impl FnMut(Point2, Point2, u32)) {
+        for_each_edge(self, visit);
+    }
+}
+
 fn for_each_edge(region: &[Polygon], mut visit: impl FnMut(Point2, Point2, u32)) {
     let mut number = 0;
     for ring in region.iter().flat_map(Polygon::rings) {
