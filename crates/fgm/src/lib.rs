@@ -59,6 +59,7 @@ mod samples;
 mod sectioned;
 mod sections;
 mod settings;
+mod short_sections;
 mod slicer;
 mod stages;
 mod stream;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use fgm_contour::ContourOptions;
-use fgm_core::{Polygon, Role};
+use fgm_core::{Band, Polygon, Role, Sectioner};
 use fgm_toolpath::{
     InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, section, skins_with,
     walls,
@@ -16,6 +16,7 @@ use crate::{
     graded::{GradedLayer, check_material},
     job::Job,
     layers::Layer,
+    short_sections::ShortSections,
     stages::{StageSeconds, timed},
 };
 
@@ -35,15 +36,24 @@ pub(crate) fn pieces(
     let mut pieces = Vec::new();
     // The layer's index makes a zipper's teeth alternate upwards, too.
     let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
+    let (material, shortest) = (job.design.fractions.as_ref(), job.settings.section.shortest);
+    let mut cut = |sections: &dyn Sectioner<Band>| {
+        let (palette, z) = (job.palette, layer.cut);
+        if shortest > 0.0 {
+            let sections = ShortSections { sections, material, palette, z, shortest };
+            section(&paths, &sections, &options, &mut pieces);
+        } else {
+            section(&paths, sections, &options, &mut pieces);
+        }
+    };
     match job.settings.section.by {
         SectionBy::Field => {
-            let material = job.design.fractions.as_ref();
             timed(&mut seconds.contour, || check_material(region, layer.cut, material))?;
             timed(&mut seconds.toolpath, || {
                 let ContourOptions { cell, root_tolerance, .. } = job.isolines;
                 let sections =
                     FieldSections::new(material, job.palette, layer.cut, cell, root_tolerance);
-                section(&paths, &sections, &options, &mut pieces);
+                cut(&sections);
                 sections.finish()
             })?;
             let colors: BTreeSet<_> = pieces.iter().map(|piece| piece.color).collect();
@@ -51,7 +61,7 @@ pub(crate) fn pieces(
         }
         SectionBy::Faces => {
             let graded = GradedLayer::new(job, layer, region, seconds)?;
-            timed(&mut seconds.toolpath, || section(&paths, &graded, &options, &mut pieces));
+            timed(&mut seconds.toolpath, || cut(&graded));
             Ok((pieces, graded.count()))
         }
     }

@@ -116,6 +116,8 @@ settings! {
     section: SectionSettings {
         #[doc = "What paths are cut by: the field itself, or the faces its traced boundaries make."]
         by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
+        #[doc = "Shorter pieces are shared out between their neighbours on the path, where no place is then off by more than a band; 0 for none."]
+        shortest: f64 = 0.0, "0", "mm";
     }
     #[doc = "Walls, strategy sectioned."]
     walls: WallSettings {
@@ -294,6 +296,7 @@ impl Settings {
         within("layer.first_height", self.first_height(), 0.0..=width, "at most layer.bead_width")?;
         within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
         within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
+        within("section.shortest", self.section.shortest, 0.0..=1000.0, "0 to 1000 mm")?;
         within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
         within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
