@@ -24,7 +24,7 @@
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`] |
 //! | order | [`order`], [`order_with`], [`order_routes`], [`connect`] |
-//! | beside the part | [`Towers`], [`skirt`] |
+//! | beside the part | [`Towers`], [`skirt`], [`brim`] |
 //! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
 //!
 //! # Volume
@@ -60,6 +60,7 @@
 //! ```
 
 mod against;
+mod brim;
 mod error;
 mod face_fill;
 mod gap;
@@ -85,6 +86,7 @@ mod walls;
 mod zipper;
 
 pub use against::{AgainstOptions, against};
+pub use brim::{BrimOptions, brim};
 pub use error::ToolpathError;
 pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};

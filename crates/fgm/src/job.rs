@@ -2,13 +2,14 @@ use fgm_contour::ContourOptions;
 use fgm_core::{Point2, Polygon};
 use fgm_field::Design;
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, Piece, order_routes, order_with, skirt};
+use fgm_toolpath::{ClipperInset, OrderOptions, Piece, brim, order_routes, order_with, skirt};
 
 use crate::{
     against,
     boundary_lines::BoundaryLines,
     choice::Strategy,
     error::SliceError,
+    foot,
     layers::{Layer, Layers},
     outlines::OutlineWindow,
     sectioned,
@@ -27,6 +28,8 @@ pub(crate) struct Job<'a> {
     pub(crate) isolines: ContourOptions,
     pub(crate) boundaries: BoundaryLines<'a>,
     pub(crate) inset: ClipperInset,
+    /// The layer that lies on the bed, from 0.
+    pub(crate) first: usize,
 }
 
 /// A layer ready to be written.
@@ -53,7 +56,15 @@ impl Job<'_> {
     fn plan_layer(&self, layer: &Layer) -> Result<PlannedLayer, SliceError> {
         let mut seconds = StageSeconds::default();
         let outline = timed(&mut seconds.contour, || self.outlines.get(layer))?;
-        let region = outline.region.as_slice();
+        let area: f64 = outline.region.iter().map(Polygon::area).sum();
+        let foot = self.settings.layer.elephant_foot;
+        let drawn = (layer.index == self.first && foot > 0.0).then(|| {
+            let width = self.settings.layer.bead_width;
+            timed(&mut seconds.toolpath, || {
+                foot::drawn_in(&outline.region, foot, width, &self.inset)
+            })
+        });
+        let region = drawn.as_ref().unwrap_or(&outline.region).as_slice();
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
         let colors = self.palette.order(layer.index);
         let (pieces, faces) = match self.settings.slice.strategy {
@@ -69,8 +80,7 @@ impl Job<'_> {
                 (timed(&mut seconds.toolpath, || order_routes(routes, &colors, start)), faces)
             }
         };
-        let pieces = timed(&mut seconds.toolpath, || self.with_skirt(layer, region, pieces));
-        let area: f64 = region.iter().map(Polygon::area).sum();
+        let pieces = timed(&mut seconds.toolpath, || self.with_loops(layer, region, pieces));
         Ok(PlannedLayer {
             index: layer.index,
             pieces,
@@ -81,12 +91,18 @@ impl Job<'_> {
         })
     }
 
-    /// On the first layer, loops around the part in the colour that comes first.
-    fn with_skirt(&self, layer: &Layer, region: &[Polygon], pieces: Vec<Piece>) -> Vec<Piece> {
+    /// On the first layer, skirt and brim around the part in the colour that comes first.
+    fn with_loops(&self, layer: &Layer, region: &[Polygon], pieces: Vec<Piece>) -> Vec<Piece> {
         let first = pieces.first().map(|piece| piece.color);
-        let (true, Some(color)) = (layer.index == 0, first) else { return pieces };
+        let (true, Some(color)) = (layer.index == self.first, first) else { return pieces };
         let mut all = Vec::new();
         skirt(region, color, &self.settings.skirt_options(), &mut all);
+        let mut loops = Vec::new();
+        brim(region, color, &self.settings.brim_options(), &self.inset, &mut loops);
+        let start = all.last().and_then(|piece| piece.points.last().copied());
+        let start = start.or(loops.first().and_then(|piece| piece.points.first().copied()));
+        let start = start.unwrap_or(Point2::ZERO);
+        all.extend(order_with(loops, &[color], start, &OrderOptions::default()));
         all.extend(pieces);
         all
     }

@@ -43,6 +43,7 @@ mod cooling;
 mod error;
 mod extent;
 mod field_sections;
+mod foot;
 mod graded;
 mod head;
 mod inspect;
@@ -76,9 +77,9 @@ pub use progress::{Progress, Quiet};
 pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
-    AgainstSettings, CompensationSettings, ContourSettings, InfillSettings, LayerSettings,
-    LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS, SettingError,
-    SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
+    AgainstSettings, BrimSettings, CompensationSettings, ContourSettings, InfillSettings,
+    LayerSettings, LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS,
+    SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
 };
 pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;

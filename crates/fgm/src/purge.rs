@@ -97,7 +97,7 @@ impl Purge {
             clearance: settings.purge.clearance,
             ..TowerOptions::default()
         };
-        let around = part.xy().grown(settings.skirt_reach());
+        let around = part.xy().grown(settings.reach());
         let mut towers = Towers::place(&around, &bed, colors, &options)?;
         // A colour that cannot occur has no spot, and none is kept above its last layer.
         let mut next = (0..).map(ColorId);

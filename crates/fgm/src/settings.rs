@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
-use fgm_toolpath::{FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
+use fgm_toolpath::{BrimOptions, FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
 
 /// One line of the list of settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,6 +89,8 @@ settings! {
         first_height: Option<f64> = None, "layer.height", "mm";
         #[doc = "Width of a bead."]
         bead_width: f64 = 0.4, "0.4", "mm";
+        #[doc = "How far the first layer's outline is drawn in, as the bed squeezes its beads outwards; what would get narrower than a bead stays."]
+        elephant_foot: f64 = 0.0, "0", "mm";
     }
     #[doc = "How the surface and the gradient are traced."]
     contour: ContourSettings {
@@ -149,7 +151,7 @@ settings! {
         #[doc = "Widest bead, where the middle of a face needs one."]
         max_width: Option<f64> = None, "1.6 bead widths", "mm";
     }
-    #[doc = "The order of printing inside a colour."]
+    #[doc = "The order of printing inside a colour, strategy sectioned."]
     order: OrderSettings {
         #[doc = "Which walls come first; any takes what is nearest."]
         walls: RoleOrder = RoleOrder::Any, "\"any\"", "any | outer-first | inner-first";
@@ -198,8 +200,15 @@ settings! {
     skirt: SkirtSettings {
         #[doc = "How many loops."]
         loops: usize = 0, "0", "count";
-        #[doc = "Room between the part and the loops."]
+        #[doc = "Room between the part, or its brim, and the loops."]
         gap: f64 = 5.0, "5", "mm";
+    }
+    #[doc = "Loops that hold the part to the bed on the first layer; islands near each other share them, holes have none."]
+    brim: BrimSettings {
+        #[doc = "How far it reaches out from the outline."]
+        width: f64 = 0.0, "0", "mm";
+        #[doc = "Room between the part and the brim; at 0 its first bead is the outer wall's neighbour."]
+        gap: f64 = 0.0, "0", "mm";
     }
 }
 
@@ -261,20 +270,26 @@ impl Settings {
         }
     }
 
-    /// The loops around the part.
+    /// The brim on a first layer.
+    pub(crate) fn brim_options(&self) -> BrimOptions {
+        let BrimSettings { width, gap } = self.brim;
+        BrimOptions { width, gap, bead_width: self.layer.bead_width, height: self.first_height() }
+    }
+
+    /// The loops around the part and its brim.
     pub(crate) fn skirt_options(&self) -> SkirtOptions {
         SkirtOptions {
             loops: u32::try_from(self.skirt.loops).unwrap_or(u32::MAX),
-            distance: self.skirt.gap,
+            distance: self.brim_options().reach() + self.skirt.gap,
             width: self.layer.bead_width,
         }
     }
 
-    /// How far the skirt reaches beyond the part, mm.
-    pub(crate) fn skirt_reach(&self) -> f64 {
+    /// How far brim and skirt reach beyond the part, mm.
+    pub(crate) fn reach(&self) -> f64 {
         match self.skirt.loops {
-            0 => 0.0,
-            loops => self.skirt.gap + loops as f64 * self.layer.bead_width,
+            0 => self.brim_options().reach(),
+            loops => self.skirt_options().distance + loops as f64 * self.layer.bead_width,
         }
     }
 
@@ -321,6 +336,10 @@ impl Settings {
         let cooling = &self.cooling;
         within("cooling.min_layer_time", cooling.min_layer_time, 0.0..=3600.0, "0 to 3600 s")?;
         within("cooling.min_speed", cooling.min_speed, 0.1..=1e4, "0.1 to 10000 mm/s")?;
+        let foot = self.layer.elephant_foot;
+        within("layer.elephant_foot", foot, 0.0..=5.0, "0 to 5 mm")?;
+        within("brim.width", self.brim.width, 0.0..=100.0, "0 to 100 mm")?;
+        within("brim.gap", self.brim.gap, 0.0..=100.0, "0 to 100 mm")?;
         within("skirt.gap", self.skirt.gap, 0.0..=1e3, "0 to 1000 mm")?;
         let count = |key, value: usize, most: usize, wanted| {
             within(key, value as f64, 0.0..=most as f64, wanted)

@@ -118,11 +118,12 @@ impl<'a> Slicer<'a> {
         placement::check(&part, &bed, &self.machine.name)?;
         let threads = pool.current_num_threads();
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
-        let job = self.job(&outliner, &palette, layers, threads);
+        let mut job = self.job(&outliner, &palette, layers, threads);
 
         let mut offset = self.machine.bed.centering(&part);
         if range.start == 0 {
             range.start = empty_below(&job, range.end)?;
+            job.first = range.start;
             if range.start > 0 {
                 // The part stands on the first layer that can be printed.
                 let first = layers.get(range.start);
@@ -285,6 +286,7 @@ impl<'a> Slicer<'a> {
             isolines: self.settings.isoline_options(),
             boundaries: BoundaryLines::new(self.design, palette, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
+            first: 0,
         }
     }
 
