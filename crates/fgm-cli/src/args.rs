@@ -128,7 +128,7 @@ pub(crate) struct SliceArguments {
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true, value_parser = percent)]
     pub(crate) infill: Option<f64>,
 
-    /// rectilinear, grid, concentric or gyroid [default: rectilinear].
+    /// rectilinear, aligned, grid, triangles, honeycomb, concentric or gyroid [default: rectilinear].
     #[arg(long, value_name = "PATTERN")]
     pub(crate) infill_pattern: Option<Pattern>,
 

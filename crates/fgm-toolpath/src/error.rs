@@ -11,7 +11,9 @@ pub enum ToolpathError {
         name: String,
     },
     /// An infill pattern that does not exist.
-    #[error("no infill pattern `{name}`: rectilinear, grid, concentric or gyroid")]
+    #[error(
+        "no infill pattern `{name}`: rectilinear, aligned, grid, triangles, honeycomb, concentric or gyroid"
+    )]
     UnknownPattern {
         /// What was asked for.
         name: String,

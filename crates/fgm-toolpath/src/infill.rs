@@ -1,10 +1,14 @@
 //! Filling regions with lines: solid, or as sparse as asked.
 
+mod clip;
 mod gyroid;
+mod honeycomb;
 mod join;
 mod pattern;
 mod rims;
 mod scan;
+
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 
 use fgm_core::{Polygon, Role, bead};
 
@@ -34,7 +38,8 @@ pub struct InfillOptions {
     pub height: f64,
     /// Height of the layer's middle, mm: the gyroid changes with it.
     pub z: f64,
-    /// The layer, from 0: rectilinear lines turn by a quarter on every other one.
+    /// The layer, from 0: rectilinear lines, and solid ones of most patterns, turn by a quarter on
+    /// every other one.
     pub layer: usize,
     /// What the beads are for.
     pub role: Role,
@@ -80,9 +85,10 @@ pub trait Infill: Sync {
 
 /// Fills a region, the inside of walls, by [`InfillOptions::pattern`].
 ///
-/// Lines of straight patterns are joined along the border into long paths; a segment's
-/// [turn](Path::turn_of) is the number of its scan line, a joining segment's that of the line
-/// before. Sparse patterns lie on one lattice for all regions and layers. A solid filling spreads
+/// Lines of straight patterns are joined along the border into long paths, where no other path
+/// lies there; a segment's [turn](Path::turn_of) is the number of its scan line, a joining
+/// segment's that of the line before. A sparse filling's lines by themselves have the density's
+/// volume; what joins them, at most once round the border, comes on top. Sparse patterns lie on one lattice for all regions and layers. A solid filling spreads
 /// its lines evenly over each polygon instead, so that beads' volume is the region's, and fills
 /// what is too thin for a line by [`gap_fill`].
 ///
@@ -101,44 +107,74 @@ impl Infill for Pattern {
             Self::Concentric if solid => solid_loops(region, options, inset),
             Self::Concentric => sparse_loops(region, options, inset),
             _ if solid => region.iter().flat_map(|p| solid_lines(p, options, inset)).collect(),
-            Self::Rectilinear => {
-                sparse_lines(region, options, turned(options), options.pitch(), inset)
+            Self::Rectilinear | Self::Aligned | Self::Grid | Self::Triangles => {
+                sparse_lines(region, options, self.families(options), inset)
             }
-            Self::Grid => {
-                let pitch = 2.0 * options.pitch();
-                let across = options.angle + std::f64::consts::FRAC_PI_2;
-                let mut out = sparse_lines(region, options, options.angle, pitch, inset);
-                out.extend(sparse_lines(region, options, across, pitch, inset));
-                out
-            }
+            Self::Honeycomb => honeycomb::lines(region, options, inset),
             Self::Gyroid => gyroid::lines(region, options, inset),
         }
     }
 }
 
-/// The direction on this layer.
-fn turned(options: &InfillOptions) -> f64 {
-    let odd = !options.layer.is_multiple_of(2);
-    options.angle + if odd { std::f64::consts::FRAC_PI_2 } else { 0.0 }
+/// How a pattern of straight lines is made up.
+#[derive(Clone, Copy)]
+struct Families {
+    /// Of the first family's lines, radians from +x.
+    angle: f64,
+    /// From each family to the next, radians.
+    turn: f64,
+    count: u32,
+    /// Where line 0 lies, in pitches.
+    phase: f64,
+}
+
+impl Pattern {
+    /// The families of parallel lines of a straight pattern; those of the rectilinear one for
+    /// others.
+    fn families(self, options: &InfillOptions) -> Families {
+        let angle = options.angle;
+        match self {
+            Self::Aligned => Families { angle, turn: 0.0, count: 1, phase: 0.5 },
+            Self::Grid => Families { angle, turn: FRAC_PI_2, count: 2, phase: 0.5 },
+            // Through one point, so that they meet everywhere.
+            Self::Triangles => Families { angle, turn: FRAC_PI_3, count: 3, phase: 0.0 },
+            _ => {
+                let odd = !options.layer.is_multiple_of(2);
+                let angle = angle + if odd { FRAC_PI_2 } else { 0.0 };
+                Families { angle, turn: 0.0, count: 1, phase: 0.5 }
+            }
+        }
+    }
 }
 
 fn sparse_lines(
     region: &[Polygon],
     options: &InfillOptions,
-    angle: f64,
-    pitch: f64,
+    families: Families,
     inset: &dyn Inset,
 ) -> Vec<Path> {
+    let Families { angle, turn, count, phase } = families;
     let centres = inset.inset(region, 0.5 * options.spacing());
-    let lattice = scan::Lattice { angle, pitch, phase: 0.5 * pitch };
+    let pitch = f64::from(count) * options.pitch();
     let beads = join::Beads { width: options.width, spacing: None, role: options.role };
-    join::serpentines(&centres, &lattice, &beads)
+    // No stretch of border is laid twice.
+    let mut laid = join::Laid::default();
+    let family = |i| {
+        let angle = angle + f64::from(i) * turn;
+        let lattice = scan::Lattice { angle, pitch, phase: phase * pitch };
+        join::serpentines(&centres, &lattice, &beads, &mut laid)
+    };
+    (0..count).flat_map(family).collect()
 }
 
 /// Solid lines over one polygon, as many as fit its extent best and spread evenly.
 fn solid_lines(polygon: &Polygon, options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
     let spacing = options.spacing();
-    let angle = turned(options);
+    let lines = match options.pattern {
+        Pattern::Aligned => Pattern::Aligned,
+        _ => Pattern::Rectilinear,
+    };
+    let angle = lines.families(options).angle;
     let (low, high) = scan::extent(polygon, angle);
     let extent = high - low;
     if !(extent > 0.0 && extent.is_finite()) {
@@ -152,7 +188,7 @@ fn solid_lines(polygon: &Polygon, options: &InfillOptions, inset: &dyn Inset) ->
     let lattice = scan::Lattice { angle, pitch, phase: low + 0.5 * pitch };
     let width = options.width - spacing + pitch;
     let beads = join::Beads { width, spacing: Some(spacing), role: options.role };
-    let mut out = join::serpentines(&centres, &lattice, &beads);
+    let mut out = join::serpentines(&centres, &lattice, &beads, &mut join::Laid::default());
 
     let covered = inset.inset(&centres, -0.5 * spacing - 1e-2);
     if region::area(polygon) - region::area(&covered) > -1e-2 * spacing {

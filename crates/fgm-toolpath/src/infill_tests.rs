@@ -7,25 +7,114 @@ fn options(pattern: Pattern, density: f64) -> InfillOptions {
     InfillOptions { pattern, density, ..InfillOptions::new(WIDTH, HEIGHT) }
 }
 
+/// The volume of a pattern over that of its density.
+fn share(region: &[Polygon], pattern: Pattern, density: f64) -> f64 {
+    // The gyroid's lines vary over its height.
+    let heights = if pattern == Pattern::Gyroid { 4 } else { 1 };
+    let scale = 0.3913 * bead::spacing(WIDTH, HEIGHT) / density;
+    let sum: f64 = (0..heights)
+        .map(|i| {
+            let z = (f64::from(i) + 0.3) / f64::from(heights) * scale * std::f64::consts::TAU;
+            let options = InfillOptions { z, angle: 0.2, ..options(pattern, density) };
+            volume(&infill(region, &options, &ClipperInset::default()))
+        })
+        .sum();
+    sum / f64::from(heights) / (region[0].area() * HEIGHT * density)
+}
+
 #[test]
 fn patterns_have_their_density() {
+    for pattern in Pattern::ALL {
+        // Curves have many vertices, and nothing joins them on top.
+        let size = if pattern == Pattern::Gyroid { 300.0 } else { 600.0 };
+        let region = [rectangle(0.0, 0.0, size, size)];
+        for percent in [15, 40, 80] {
+            let got = share(&region, pattern, f64::from(percent) * 0.01);
+            assert!((got - 1.0).abs() < 0.02, "{pattern} {percent}: {got}");
+        }
+    }
+}
+
+/// What joins the lines comes on top: once round the border at most.
+#[test]
+fn small_regions_have_their_density_and_a_border() {
     let region = [rectangle(0.0, 0.0, 120.0, 120.0)];
     for pattern in Pattern::ALL {
-        for percent in [10, 15, 40, 80, 100] {
+        for percent in [10, 20, 50, 100] {
             let density = f64::from(percent) * 0.01;
-            // The gyroid's lines vary over its height.
-            let heights = if pattern == Pattern::Gyroid { 8 } else { 1 };
-            let scale = 0.3913 * bead::spacing(WIDTH, HEIGHT) / density;
-            let sum: f64 = (0..heights)
-                .map(|i| {
-                    let z =
-                        (f64::from(i) + 0.3) / f64::from(heights) * scale * std::f64::consts::TAU;
-                    let options = InfillOptions { z, ..options(pattern, density) };
-                    volume(&infill(&region, &options, &ClipperInset::default()))
-                })
+            let lines = density * region[0].area() / bead::spacing(WIDTH, HEIGHT);
+            let got = share(&region, pattern, density);
+            assert!(got > 0.97 && got < 1.03 + 480.0 / lines, "{pattern} {percent}: {got}");
+        }
+    }
+}
+
+/// Three families want the same border; each stretch is laid by one.
+#[test]
+fn no_stretch_of_border_is_laid_twice() {
+    let region = [tube(15.0, 6.0)];
+    for pattern in [Pattern::Grid, Pattern::Triangles] {
+        let paths = infill(&region, &options(pattern, 0.5), &ClipperInset::default());
+        let half = 0.5 * bead::spacing(WIDTH, HEIGHT);
+        for (radius, out) in [(15.0 - half, 1.0), (6.0 + half, -1.0)] {
+            let on = |p: Point2| out * (p.length() - radius) > -2e-2;
+            let steps = paths.iter().flat_map(segments);
+            let round: f64 = steps
+                .filter(|(a, b)| on(*a) && on(*b) && on(a.midpoint(*b)))
+                .map(|(a, b)| a.distance(b))
                 .sum();
-            let got = sum / f64::from(heights) / (region[0].area() * HEIGHT);
-            assert!((got / density - 1.0).abs() < 0.1, "{pattern} {density}: {got}");
+            let whole = std::f64::consts::TAU * radius;
+            assert!(round > 0.3 * whole && round < whole, "{pattern}: {round} of {whole}");
+        }
+    }
+}
+
+/// Regular, and apart: two waves never come nearer than a spacing.
+#[test]
+fn honeycombs_have_hexagons() {
+    let options = options(Pattern::Honeycomb, 0.2);
+    let region = [rectangle(0.0, 0.0, 40.0, 40.0)];
+    let paths = infill(&region, &options, &ClipperInset::default());
+    let spacing = bead::spacing(WIDTH, HEIGHT);
+    let side = spacing * (4.0 / 0.6 - 1.0) / 0.75_f64.sqrt();
+    let mut whole = 0;
+    for path in &paths {
+        let inner = path.points.windows(2).skip(1);
+        for pair in inner.take(path.points.len().saturating_sub(3)) {
+            assert!((pair[0].distance(pair[1]) - side).abs() < 1e-9);
+            whole += 1;
+        }
+    }
+    assert!(whole > 200, "{whole}");
+    for (i, a) in paths.iter().enumerate() {
+        for b in &paths[i + 1..] {
+            let apart = a.points.iter().flat_map(|p| {
+                segments(b).map(move |(q, r)| {
+                    let share = (p - q).dot(r - q) / (r - q).length_squared();
+                    p.distance(q + (r - q) * share.clamp(0.0, 1.0))
+                })
+            });
+            assert!(apart.fold(f64::INFINITY, f64::min) > spacing - 1e-9);
+        }
+    }
+}
+
+#[test]
+fn only_rectilinear_lines_turn() {
+    let region = [rectangle(0.0, 0.0, 20.0, 10.0)];
+    for pattern in Pattern::ALL {
+        for density in [0.3, 1.0] {
+            let on = |layer| {
+                let options = InfillOptions { layer, ..options(pattern, density) };
+                infill(&region, &options, &ClipperInset::default())
+            };
+            assert_eq!(on(0), on(2));
+            let turns = match pattern {
+                Pattern::Rectilinear => true,
+                Pattern::Aligned | Pattern::Concentric => false,
+                _ => density == 1.0,
+            };
+            assert_eq!(on(0) != on(1), turns, "{pattern} {density}");
         }
     }
 }
@@ -62,6 +151,7 @@ fn serpentines_keep_every_line() {
             &region,
             &lattice,
             &join::Beads { width: WIDTH, spacing: None, role: Role::Infill },
+            &mut join::Laid::default(),
         );
         let axis = lattice.axis();
         let mut lines = 0.0;
@@ -129,7 +219,7 @@ fn names_go_both_ways() {
     let error = "zigzag".parse::<Pattern>().unwrap_err();
     assert_eq!(
         error.to_string(),
-        "no infill pattern `zigzag`: rectilinear, grid, concentric or gyroid"
+        "no infill pattern `zigzag`: rectilinear, aligned, grid, triangles, honeycomb, concentric or gyroid"
     );
 }
 

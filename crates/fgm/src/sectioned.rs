@@ -100,15 +100,16 @@ fn paths(job: &Job<'_>, layer: &Layer, region: &[Polygon], neighbours: &Neighbou
     let options = WallOptions::new(settings.walls.count, width, layer.height);
     let walls = walls(region, &options, &job.inset);
     let mut paths = walls.paths;
+    let (angle, turning) = settings.infill_direction(layer.index);
     let fill = |region: &[Polygon], density: f64, pattern: Pattern, role: Role| {
         let options = InfillOptions {
             pattern,
             density,
-            angle: settings.infill.angle.to_radians(),
+            angle,
             width,
             height: layer.height,
             z: layer.cut,
-            layer: layer.index,
+            layer: turning,
             role,
         };
         infill(region, &options, &job.inset)

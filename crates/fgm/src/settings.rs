@@ -138,9 +138,11 @@ settings! {
         #[doc = "How much of the inside is filled."]
         density: f64 = 15.0, "15", "percent";
         #[doc = "How the lines run."]
-        pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | grid | concentric | gyroid";
-        #[doc = "Direction of the lines on even layers; odd layers are turned by a right angle."]
+        pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | aligned | grid | triangles | honeycomb | concentric | gyroid";
+        #[doc = "Direction of the lines; rectilinear lines and skins are turned by a right angle on every other layer."]
         angle: f64 = 45.0, "45", "degrees";
+        #[doc = "Directions of the lines, layer by layer and then from the first again, in place of angle and its turn."]
+        angles: Vec<f64> = Vec::new(), "[]", "[degrees, ...]";
     }
     #[doc = "Filling of faces, strategy against."]
     against: AgainstSettings {
@@ -270,6 +272,16 @@ impl Settings {
         }
     }
 
+    /// The direction of lines on a layer, from 0, in radians, and the number by which patterns turn
+    /// them.
+    pub(crate) fn infill_direction(&self, layer: usize) -> (f64, usize) {
+        let InfillSettings { angle, angles, .. } = &self.infill;
+        match angles.len() {
+            0 => (angle.to_radians(), layer),
+            count => (angles[layer % count].to_radians(), 0),
+        }
+    }
+
     /// The brim on a first layer.
     pub(crate) fn brim_options(&self) -> BrimOptions {
         let BrimSettings { width, gap } = self.brim;
@@ -316,6 +328,9 @@ impl Settings {
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
         within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
         within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;
+        for angle in &self.infill.angles {
+            within("infill.angles", *angle, -3600.0..=3600.0, "an angle in degrees")?;
+        }
         for x in self.order.seam_point.into_iter().flatten() {
             within("order.seam_point", x, -1e6..=1e6, "-1000000 to 1000000 mm")?;
         }

@@ -46,7 +46,7 @@ fn brim_and_skirt_stand_around_the_part() {
 fn towers_keep_away_from_the_brim() {
     let beads = beads(BOX, Strategy::Sectioned, |s| s.brim.width = 8.0);
     let tower = |b: &&Bead| b.is_tower();
-    assert!(beads.iter().any(|b| b.is_tower()));
+    assert!(beads.iter().any(Bead::is_tower));
     let near = beads.iter().filter(tower).map(|b| b.from.abs().max_element());
     assert!(near.fold(f64::INFINITY, f64::min) > 5.0 + 8.0 + 5.0);
 }

@@ -5,34 +5,22 @@
 
 use std::f64::consts::TAU;
 
-use fgm_core::{Bounds2, Point2, Polygon, Ring};
+use fgm_core::{Point2, Polygon};
 
-use super::InfillOptions;
-use crate::{Inset, Path, inset::grid::EdgeGrid, inset::simplify};
+use super::{InfillOptions, clip::Clip};
+use crate::{Inset, Path};
 
 /// Length of line in a unit of area, for a period of 2 pi, averaged over z.
 const LENGTH_PER_AREA: f64 = 0.3913;
 /// Steps in a period.
 const STEPS: usize = 48;
-/// How far lines may be straightened, mm.
-const STRAIGHTEN: f64 = 0.01;
 
 pub(super) fn lines(region: &[Polygon], options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
-    let centres = inset.inset(region, 0.5 * options.spacing());
-    let axis = Point2::from_angle(options.angle);
-    let back = axis * Point2::new(1.0, -1.0);
-    let edges: Vec<_> = centres
-        .iter()
-        .flat_map(Polygon::rings)
-        .flat_map(Ring::edges)
-        .map(|(a, b)| (back.rotate(a), back.rotate(b)))
-        .collect();
-    let bounds = Bounds2::of(edges.iter().map(|e| e.0));
-    if !bounds.is_finite() {
-        return Vec::new();
-    }
     let scale = LENGTH_PER_AREA * options.pitch();
-    let grid = EdgeGrid::new(edges, scale);
+    let Some(clip) = Clip::new(region, options, scale, inset) else {
+        return Vec::new();
+    };
+    let bounds = &clip.bounds;
     let mut out = Vec::new();
     let waves = Waves::new(options.z / scale);
     let (along, across) =
@@ -59,19 +47,7 @@ pub(super) fn lines(region: &[Polygon], options: &InfillOptions, inset: &dyn Ins
                 .map(|p| p * scale)
                 .collect();
             let turn = 2 * turn as u32 + branch;
-            inside(&points, &grid, |part| {
-                let mut line = Vec::with_capacity(part.len());
-                simplify::line(part, false, STRAIGHTEN, &mut line);
-                line.iter_mut().for_each(|p| *p = axis.rotate(*p));
-                out.push(Path {
-                    points: line,
-                    closed: false,
-                    role: options.role,
-                    width: options.width,
-                    turn,
-                    turns: Vec::new(),
-                });
-            });
+            clip.line(&points, turn, options, &mut out);
         }
     }
     out
@@ -104,30 +80,5 @@ impl Waves {
         let spread = (r / p.hypot(q)).clamp(-1.0, 1.0).acos();
         let middle = q.atan2(p);
         if branch == 0 { middle - spread } else { middle + spread }
-    }
-}
-
-/// Calls `emit` with every part of a line inside the grid's border; the line begins outside.
-fn inside(points: &[Point2], grid: &EdgeGrid, mut emit: impl FnMut(&[Point2])) {
-    let mut part: Vec<Point2> = Vec::new();
-    let mut shares = Vec::new();
-    let mut within = false;
-    for pair in points.windows(2) {
-        let (a, b) = (pair[0], pair[1]);
-        shares.clear();
-        grid.crossings(a, b, &mut shares);
-        for &share in &shares {
-            part.push(a + (b - a) * share);
-            if within && part.len() > 1 {
-                emit(&part);
-            }
-            within = !within;
-            if !within {
-                part.clear();
-            }
-        }
-        if within {
-            part.push(b);
-        }
     }
 }

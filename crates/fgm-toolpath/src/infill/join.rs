@@ -23,15 +23,57 @@ pub(super) struct Beads {
     pub(super) role: Role,
 }
 
+/// Stretches of the rings of a region that paths run along already, by ring: from and to along
+/// the ring, mm, in order.
+#[derive(Debug, Default)]
+pub(super) struct Laid(Vec<Vec<(f64, f64)>>);
+
+impl Laid {
+    /// Whether any of a stretch is laid; one that runs past the ring's beginning has `to` below
+    /// `from`.
+    fn meets(&self, ring: u32, from: f64, to: f64) -> bool {
+        let Some(laid) = self.0.get(ring as usize) else { return false };
+        if to < from {
+            return laid.last().is_some_and(|last| last.1 > from)
+                || laid.first().is_some_and(|first| first.0 < to);
+        }
+        let next = laid.partition_point(|stretch| stretch.1 <= from);
+        laid.get(next).is_some_and(|stretch| stretch.0 < to)
+    }
+
+    /// Adds the stretches of one set of lines, none of which meets another.
+    fn add(&mut self, stretches: impl Iterator<Item = (u32, f64, f64)>) {
+        for (ring, from, to) in stretches {
+            let ring = ring as usize;
+            if self.0.len() <= ring {
+                self.0.resize_with(ring + 1, Vec::new);
+            }
+            if to < from {
+                self.0[ring].extend([(from, f64::INFINITY), (0.0, to)]);
+            } else {
+                self.0[ring].push((from, to));
+            }
+        }
+        for ring in &mut self.0 {
+            ring.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        }
+    }
+}
+
 /// The lines of a lattice inside a region of bead centres, joined where the border leads from
-/// one line to the next.
-pub(super) fn serpentines(centres: &[Polygon], lattice: &Lattice, beads: &Beads) -> Vec<Path> {
+/// one line to the next and is not `laid` yet; what joins them is then.
+pub(super) fn serpentines(
+    centres: &[Polygon],
+    lattice: &Lattice,
+    beads: &Beads,
+    laid: &mut Laid,
+) -> Vec<Path> {
     let rings: Vec<&Ring> = centres.iter().flat_map(Polygon::rings).collect();
     let mut crossings = lattice.crossings(rings.iter().copied());
     if beads.spacing.is_some() {
         crossings = without_tips(&crossings, lattice.pitch);
     }
-    let mut joiner = Joiner::new(&rings, &crossings, lattice);
+    let mut joiner = Joiner::new(&rings, &crossings, lattice, laid);
     let mut out = Vec::new();
     for line in 0..crossings.len() / 2 {
         if !joiner.used[line] {
@@ -45,6 +87,8 @@ pub(super) fn serpentines(centres: &[Polygon], lattice: &Lattice, beads: &Beads)
     if let Some(spacing) = beads.spacing {
         joiner.rims(spacing, beads, &mut out);
     }
+    let stretches = joiner.stretches();
+    laid.add(stretches.into_iter());
     out
 }
 
@@ -95,15 +139,22 @@ struct Joiner<'a> {
     used: Vec<bool>,
     /// Whether the stretch of ring after each crossing is part of a path.
     linked: Vec<bool>,
+    /// Stretches that other paths run along.
+    laid: &'a Laid,
 }
 
 impl<'a> Joiner<'a> {
-    fn new(rings: &'a [&'a Ring], crossings: &'a [Crossing], lattice: &'a Lattice) -> Self {
+    fn new(
+        rings: &'a [&'a Ring],
+        crossings: &'a [Crossing],
+        lattice: &'a Lattice,
+        laid: &'a Laid,
+    ) -> Self {
         let (after, before) = neighbours(crossings);
         let lengths = rings.iter().map(|r| cumulative(r)).collect();
         let used = vec![false; crossings.len() / 2];
         let linked = vec![false; crossings.len()];
-        Self { rings, lengths, crossings, lattice, after, before, used, linked }
+        Self { rings, lengths, crossings, lattice, after, before, used, linked, laid }
     }
 
     /// The path that begins with a line.
@@ -173,13 +224,30 @@ impl<'a> Joiner<'a> {
             .filter(|&(to, forward)| {
                 let step = (self.crossings[to].line - line).abs();
                 let free = self.used.get(to / 2) == Some(&false);
-                step == 1 && free && self.distance(from, to, forward) <= limit
+                let near = || self.distance(from, to, forward) <= limit;
+                step == 1 && free && near() && !self.is_laid(from, to, forward)
             })
             .min_by(|&(a, f), &(b, g)| {
                 let turns_back = |to: usize| self.crossings[to].line - line != way;
                 let length = |to, forward| self.distance(from, to, forward);
                 turns_back(a).cmp(&turns_back(b)).then(length(a, f).total_cmp(&length(b, g)))
             })
+    }
+
+    /// Whether another path runs along the border between two crossings.
+    fn is_laid(&self, from: usize, to: usize, forward: bool) -> bool {
+        let (from, to) = if forward { (from, to) } else { (to, from) };
+        self.laid.meets(self.crossings[from].ring, self.along(from), self.along(to))
+    }
+
+    /// The stretches of border that are part of a path.
+    fn stretches(&self) -> Vec<(u32, f64, f64)> {
+        let linked = (0..self.crossings.len()).filter(|&i| self.linked[i]);
+        let stretch = |from: usize| {
+            let to = self.after[from] as usize;
+            (self.crossings[from].ring, self.along(from), self.along(to))
+        };
+        linked.map(stretch).collect()
     }
 
     fn along(&self, crossing: usize) -> f64 {

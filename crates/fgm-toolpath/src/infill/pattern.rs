@@ -11,8 +11,14 @@ pub enum Pattern {
     /// Parallel lines, turned by a quarter on every other layer.
     #[default]
     Rectilinear,
+    /// Parallel lines, the same way on every layer.
+    Aligned,
     /// Lines both ways on every layer.
     Grid,
+    /// Lines three ways on every layer, which meet in the corners of triangles.
+    Triangles,
+    /// Hexagonal cells, the same on every layer.
+    Honeycomb,
     /// Loops along the border.
     Concentric,
     /// A triply periodic surface without straight lines: equally strong every way.
@@ -21,13 +27,24 @@ pub enum Pattern {
 
 impl Pattern {
     /// Every pattern.
-    pub const ALL: [Self; 4] = [Self::Rectilinear, Self::Grid, Self::Concentric, Self::Gyroid];
+    pub const ALL: [Self; 7] = [
+        Self::Rectilinear,
+        Self::Aligned,
+        Self::Grid,
+        Self::Triangles,
+        Self::Honeycomb,
+        Self::Concentric,
+        Self::Gyroid,
+    ];
 
     /// Its name in settings.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Rectilinear => "rectilinear",
+            Self::Aligned => "aligned",
             Self::Grid => "grid",
+            Self::Triangles => "triangles",
+            Self::Honeycomb => "honeycomb",
             Self::Concentric => "concentric",
             Self::Gyroid => "gyroid",
         }
