@@ -23,7 +23,7 @@
 //! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`] |
-//! | order | [`order`], [`order_with`], [`order_routes`], [`connect`] |
+//! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`] |
 //! | beside the part | [`Towers`], [`skirt`], [`brim`] |
 //! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
 //!
@@ -66,6 +66,7 @@ mod face_fill;
 mod gap;
 mod infill;
 mod inset;
+mod join_ends;
 mod order;
 mod order_near;
 mod order_routes;
@@ -92,6 +93,7 @@ pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};
 pub use infill::{Infill, InfillOptions, Pattern, infill};
 pub use inset::{ClipperInset, Inset};
+pub use join_ends::join_ends;
 pub use order::{OrderOptions, RoleOrder, Seam, order, order_with};
 pub use order_routes::order_routes;
 pub use path::{Path, Piece};

@@ -2,7 +2,9 @@ use fgm_contour::ContourOptions;
 use fgm_core::{Point2, Polygon};
 use fgm_field::Design;
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, OrderOptions, Piece, brim, order_routes, order_with, skirt};
+use fgm_toolpath::{
+    ClipperInset, OrderOptions, Piece, brim, join_ends, order_routes, order_with, skirt,
+};
 
 use crate::{
     against,
@@ -72,7 +74,11 @@ impl Job<'_> {
                 let (pieces, faces) = sectioned::pieces(self, layer, region, &mut seconds)?;
                 let corner = self.design.bounds.max.truncate();
                 let options = self.settings.order_options(layer.index, corner);
-                let order = || order_with(pieces, &colors, start, &options);
+                let order = || {
+                    let mut pieces = order_with(pieces, &colors, start, &options);
+                    join_ends(&mut pieces, layer.height);
+                    pieces
+                };
                 (timed(&mut seconds.toolpath, order), faces)
             }
             Strategy::Against => {

@@ -119,7 +119,7 @@ settings! {
         #[doc = "What paths are cut by: the field itself, or the faces its traced boundaries make."]
         by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
         #[doc = "Shorter pieces are shared out between their neighbours on the path, where no place is then off by more than a band; 0 for none."]
-        shortest: f64 = 0.0, "0", "mm";
+        shortest: f64 = 3.0, "3", "mm";
     }
     #[doc = "Walls, strategy sectioned."]
     walls: WallSettings {
