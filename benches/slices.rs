@@ -29,7 +29,7 @@ fn settings(strategy: Strategy, colors: usize) -> Settings {
 
 fn slices(c: &mut Criterion) {
     let mut slab = settings(Strategy::Sectioned, 16);
-    slab.infill.density = 100.0;
+    slab.infill.density = 100.0.into();
     let design = builtin("slab");
     slice(c, "slab, sectioned, 16 colors", "geeetech-mizar-m", &design, &slab);
     let against = settings(Strategy::Against, 48);
@@ -37,7 +37,7 @@ fn slices(c: &mut Criterion) {
 
     let mut vase = settings(Strategy::Sectioned, 16);
     vase.walls.count = 10;
-    vase.infill.density = 0.0;
+    vase.infill.density = 0.0.into();
     slice(c, "vase, sectioned, 16 colors", "geeetech-mizar-m", &builtin("vase"), &vase);
     if let Some(mesh) = model("vase.stl", EQ1) {
         slice(c, "vase.stl, sectioned, 16 colors", "geeetech-mizar-m", &mesh, &vase);

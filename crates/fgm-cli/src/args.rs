@@ -6,7 +6,7 @@ mod check;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use fgm::{ColorCount, FaceFill, Pattern, Strategy, Zipper};
+use fgm::{ColorCount, Density, FaceFill, Pattern, Strategy, Zipper};
 
 pub(crate) use calibrate::{
     Bead, CalibrateArguments, Calibration, FoamingPrint, Inputs, LeadPrint, PrintArguments,
@@ -124,9 +124,10 @@ pub(crate) struct SliceArguments {
     #[arg(long, value_name = "N")]
     pub(crate) walls: Option<usize>,
 
-    /// How much of the inside is filled, in percent [default: 15].
-    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true, value_parser = percent)]
-    pub(crate) infill: Option<f64>,
+    /// How much of the inside is filled, in percent; or a formula such as '10 + 40 z/50' of x, y, z
+    /// and the distance d, for straight patterns [default: 15].
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
+    pub(crate) infill: Option<Density>,
 
     /// rectilinear, aligned, grid, triangles, honeycomb, concentric or gyroid [default: rectilinear].
     #[arg(long, value_name = "PATTERN")]
@@ -246,11 +247,6 @@ pub(crate) struct CompletionsArguments {
     pub(crate) shell: clap_complete::Shell,
 }
 
-fn percent(text: &str) -> Result<f64, String> {
-    let number = text.strip_suffix('%').unwrap_or(text);
-    number.parse().map_err(|_| format!("`{text}` is not a percentage such as 15"))
-}
-
 fn size(text: &str) -> Result<[f64; 3], String> {
     let wanted = || format!("`{text}` is not three lengths above 0 in mm such as 60,31,48");
     let lengths: Vec<f64> = text
@@ -294,6 +290,5 @@ mod tests {
         assert_eq!(size("1, 2,3"), Ok([1.0, 2.0, 3.0]));
         assert!(size("1,2").is_err());
         assert!(size("1,2,-3").is_err());
-        assert_eq!(percent("15%"), Ok(15.0));
     }
 }

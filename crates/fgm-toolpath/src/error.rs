@@ -18,6 +18,16 @@ pub enum ToolpathError {
         /// What was asked for.
         name: String,
     },
+    /// A density is not a number somewhere.
+    #[error("the density of the infill is not a number at ({x:.4}, {y:.4}, {z:.4})")]
+    Density {
+        /// Where, mm.
+        x: f64,
+        /// Where, mm.
+        y: f64,
+        /// Where, mm.
+        z: f64,
+    },
     /// A layer has a number that is not one.
     #[error("layer {layer}: a {what} of piece {piece} is not finite")]
     NotFinite {

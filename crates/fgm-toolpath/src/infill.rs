@@ -1,6 +1,7 @@
 //! Filling regions with lines: solid, or as sparse as asked.
 
 mod clip;
+mod graded;
 mod gyroid;
 mod honeycomb;
 mod join;
@@ -18,6 +19,7 @@ use crate::{
     gap_fill, region,
     walls::{loops, peel::peel},
 };
+pub use graded::infill_graded;
 pub use pattern::Pattern;
 
 /// From this density on a filling is solid.
@@ -128,7 +130,24 @@ struct Families {
     phase: f64,
 }
 
+impl Families {
+    /// The lattice of each family, which together lie `pitch` mm apart.
+    fn lattices(self, pitch: f64) -> impl Iterator<Item = scan::Lattice> {
+        let Self { angle, turn, count, phase } = self;
+        let pitch = f64::from(count) * pitch;
+        (0..count).map(move |i| {
+            let angle = angle + f64::from(i) * turn;
+            scan::Lattice { angle, pitch, phase: phase * pitch }
+        })
+    }
+}
+
 impl Pattern {
+    /// Whether it is made of straight lines, which [`infill_graded`] can thin.
+    pub fn is_straight(self) -> bool {
+        matches!(self, Self::Rectilinear | Self::Aligned | Self::Grid | Self::Triangles)
+    }
+
     /// The families of parallel lines of a straight pattern; those of the rectilinear one for
     /// others.
     fn families(self, options: &InfillOptions) -> Families {
@@ -153,18 +172,12 @@ fn sparse_lines(
     families: Families,
     inset: &dyn Inset,
 ) -> Vec<Path> {
-    let Families { angle, turn, count, phase } = families;
     let centres = inset.inset(region, 0.5 * options.spacing());
-    let pitch = f64::from(count) * options.pitch();
     let beads = join::Beads { width: options.width, spacing: None, role: options.role };
     // No stretch of border is laid twice.
     let mut laid = join::Laid::default();
-    let family = |i| {
-        let angle = angle + f64::from(i) * turn;
-        let lattice = scan::Lattice { angle, pitch, phase: phase * pitch };
-        join::serpentines(&centres, &lattice, &beads, &mut laid)
-    };
-    (0..count).flat_map(family).collect()
+    let family = |lattice| join::serpentines(&centres, &lattice, &beads, &mut laid);
+    families.lattices(options.pitch()).flat_map(family).collect()
 }
 
 /// Solid lines over one polygon, as many as fit its extent best and spread evenly.

@@ -20,7 +20,7 @@
 //! |---|---|
 //! | lines | [`Path`] before it has a colour, [`Piece`] after |
 //! | borders | [`Inset`] (the seam), [`ClipperInset`] (its default), [`region`] (booleans) |
-//! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`gap_fill`] |
+//! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`] |
 //! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`] |
@@ -91,7 +91,7 @@ pub use brim::{BrimOptions, brim};
 pub use error::ToolpathError;
 pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};
-pub use infill::{Infill, InfillOptions, Pattern, infill};
+pub use infill::{Infill, InfillOptions, Pattern, infill, infill_graded};
 pub use inset::{ClipperInset, Inset};
 pub use join_ends::join_ends;
 pub use order::{OrderOptions, RoleOrder, Seam, order, order_with};

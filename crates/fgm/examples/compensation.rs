@@ -52,7 +52,7 @@ const PRINTS: [(&str, Strategy, bool); 3] = [
 fn settings(strategy: Strategy, towers: bool, (width, height): (f64, f64)) -> Settings {
     let mut settings = Settings::default();
     settings.slice.strategy = strategy;
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     settings.purge.enabled = Some(towers);
     (settings.layer.bead_width, settings.layer.height) = (width, height);
     settings

@@ -29,7 +29,7 @@ fn main() -> Outcome<()> {
             let mut settings = Settings::default();
             settings.slice.strategy = strategy;
             settings.palette.colors = Some(ColorCount::Count(colors));
-            settings.infill.density = 100.0;
+            settings.infill.density = 100.0.into();
             let (gcode, _) = common::slice(&design, &machine, &settings)?;
             let figures = common::fidelity(&design, &machine, transition, &gcode)?;
             let (error, color) = (&figures.deposited, &figures.deposited_delta_e);

@@ -47,7 +47,7 @@ fn main() -> Outcome<()> {
 fn course(design: &Design, machine: &Machine, lead: f64) -> Outcome<Vec<(f64, f64)>> {
     let mut settings = Settings::default();
     settings.palette.colors = Some(ColorCount::Count(2));
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     settings.infill.angle = 90.0;
     settings.walls.count = 0;
     settings.purge.enabled = Some(false);

@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for strategy in [Strategy::Sectioned, Strategy::Against] {
         let mut settings = Settings::default();
         settings.slice.strategy = strategy;
-        settings.infill.density = 100.0;
+        settings.infill.density = 100.0.into();
         let mut gcode = Vec::new();
         let report = Slicer::new(&loaded.design, &machine, &settings).slice(&mut gcode, &Quiet)?;
         println!(

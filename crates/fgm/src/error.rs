@@ -54,6 +54,18 @@ pub enum SliceError {
         /// Why.
         source: fgm_contour::ContourError,
     },
+    /// A density that varies, where the pattern's lines cannot follow.
+    #[error(
+        "infill.density varies, and {pattern} lines cannot follow it: choose rectilinear, aligned, \
+         grid or triangles as infill.pattern"
+    )]
+    GradedPattern {
+        /// The pattern asked for.
+        pattern: fgm_toolpath::Pattern,
+    },
+    /// The design's distance, which the density asks for, could not be made.
+    #[error("infill.density: {0}")]
+    Distance(#[from] fgm_field::FieldError),
     /// The design's surface could not be traced.
     #[error(transparent)]
     Surface(#[from] fgm_contour::ContourError),

@@ -1,6 +1,6 @@
 use fgm_contour::ContourOptions;
 use fgm_core::{Point2, Polygon};
-use fgm_field::Design;
+use fgm_field::{Design, ExprField};
 use fgm_palette::Palette;
 use fgm_toolpath::{
     ClipperInset, OrderOptions, Piece, brim, join_ends, order_routes, order_with, skirt,
@@ -30,6 +30,8 @@ pub(crate) struct Job<'a> {
     pub(crate) isolines: ContourOptions,
     pub(crate) boundaries: BoundaryLines<'a>,
     pub(crate) inset: ClipperInset,
+    /// The density of the infill, percent, where it varies.
+    pub(crate) density: Option<ExprField>,
     /// The layer that lies on the bed, from 0.
     pub(crate) first: usize,
 }

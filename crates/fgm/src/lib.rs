@@ -24,7 +24,7 @@
 //! let loaded = design::parse_vcad(source, ".".as_ref(), &Default::default())?;
 //! let machine = Machine::builtin("geeetech-mizar-m").ok_or("no such printer")?;
 //! let mut settings = Settings::default();
-//! settings.infill.density = 100.0;
+//! settings.infill.density = 100.0.into();
 //!
 //! let mut gcode = Vec::new();
 //! let report = Slicer::new(&loaded.design, &machine, &settings).slice(&mut gcode, &Quiet)?;
@@ -40,6 +40,7 @@ mod boundary_lines;
 mod choice;
 mod colors;
 mod cooling;
+mod density;
 mod error;
 mod extent;
 mod field_sections;
@@ -68,6 +69,7 @@ mod target;
 
 pub use choice::{Aim, ChoiceError, ColorCount, SectionBy, Strategy, Zipper};
 pub use colors::{material_colors, usual_colors};
+pub use density::{Density, DensityError, DensityFormula};
 pub use error::SliceError;
 pub use head::machine_comments;
 pub use inspect::{Inspection, MaterialRange, inspect};

@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use fgm_contour::ContourOptions;
 use fgm_core::{Band, Polygon, Role, Sectioner};
 use fgm_toolpath::{
-    InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, section, skins_with,
-    walls,
+    InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, infill_graded,
+    section, skins_with, walls,
 };
 
 use crate::{
     choice::SectionBy,
+    density::Shares,
     error::SliceError,
     field_sections::FieldSections,
     graded::{GradedLayer, check_material},
@@ -30,9 +31,9 @@ pub(crate) fn pieces(
     let neighbours = Neighbours::of(job, layer, seconds)?;
     let paths = timed(&mut seconds.toolpath, || {
         let simple = |path: Path| path.simplified(job.settings.contour.resolution);
-        let paths = paths(job, layer, region, &neighbours).into_iter();
-        paths.map(simple).collect::<Vec<_>>()
-    });
+        let paths = paths(job, layer, region, &neighbours)?.into_iter();
+        Ok::<_, SliceError>(paths.map(simple).collect::<Vec<_>>())
+    })?;
     let mut pieces = Vec::new();
     // The layer's index makes a zipper's teeth alternate upwards, too.
     let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
@@ -75,7 +76,7 @@ struct Neighbours {
 
 impl Neighbours {
     fn of(job: &Job<'_>, layer: &Layer, seconds: &mut StageSeconds) -> Result<Self, SliceError> {
-        if job.settings.infill.density >= 100.0 {
+        if job.settings.infill.density.percent().is_some_and(|percent| percent >= 100.0) {
             return Ok(Self { above: Vec::new(), below: Vec::new() });
         }
         let get = |index: Option<usize>| match index {
@@ -94,44 +95,50 @@ impl Neighbours {
     }
 }
 
-fn paths(job: &Job<'_>, layer: &Layer, region: &[Polygon], neighbours: &Neighbours) -> Vec<Path> {
+fn paths(
+    job: &Job<'_>,
+    layer: &Layer,
+    region: &[Polygon],
+    neighbours: &Neighbours,
+) -> Result<Vec<Path>, SliceError> {
     let settings = job.settings;
     let width = settings.layer.bead_width;
     let options = WallOptions::new(settings.walls.count, width, layer.height);
     let walls = walls(region, &options, &job.inset);
     let mut paths = walls.paths;
     let (angle, turning) = settings.infill_direction(layer.index);
-    let fill = |region: &[Polygon], density: f64, pattern: Pattern, role: Role| {
-        let options = InfillOptions {
-            pattern,
-            density,
-            angle,
-            width,
-            height: layer.height,
-            z: layer.cut,
-            layer: turning,
-            role,
-        };
-        infill(region, &options, &job.inset)
+    let sparse = InfillOptions {
+        pattern: settings.infill.pattern,
+        density: settings.infill.density.percent().unwrap_or(0.0) / 100.0,
+        angle,
+        width,
+        height: layer.height,
+        z: layer.cut,
+        layer: turning,
+        role: Role::Infill,
     };
-    let density = settings.infill.density / 100.0;
-    let solid = |region: &[Polygon], role: Role| fill(region, 1.0, Pattern::Rectilinear, role);
-    if density >= 1.0 {
+    let fill = |region: &[Polygon], options: InfillOptions| infill(region, &options, &job.inset);
+    if sparse.density >= 1.0 {
         let role = match layer.index {
             0 => Role::BottomSkin,
             i if i + 1 == job.layers.count() => Role::TopSkin,
             _ => Role::SolidInfill,
         };
-        paths.extend(fill(&walls.inside, 1.0, settings.infill.pattern, role));
-        return paths;
+        paths.extend(fill(&walls.inside, InfillOptions { density: 1.0, role, ..sparse }));
+        return Ok(paths);
     }
     let above: Vec<&[Polygon]> = neighbours.above.iter().map(|o| o.region.as_slice()).collect();
     let below: Vec<&[Polygon]> = neighbours.below.iter().map(|o| o.region.as_slice()).collect();
     let skins = skins_with(&walls.inside, &above, &below, width, &job.inset);
-    paths.extend(solid(&skins.top, Role::TopSkin));
-    paths.extend(solid(&skins.bottom, Role::BottomSkin));
-    if density > 0.0 {
-        paths.extend(fill(&skins.sparse, density, settings.infill.pattern, Role::Infill));
+    let solid = InfillOptions { pattern: Pattern::Rectilinear, density: 1.0, ..sparse };
+    paths.extend(fill(&skins.top, InfillOptions { role: Role::TopSkin, ..solid }));
+    paths.extend(fill(&skins.bottom, InfillOptions { role: Role::BottomSkin, ..solid }));
+    if let Some(density) = &job.density {
+        let shares = Shares::at(density, layer.cut);
+        let step = settings.contour.cell;
+        paths.extend(infill_graded(&skins.sparse, &shares, step, &sparse, &job.inset)?);
+    } else if sparse.density > 0.0 {
+        paths.extend(fill(&skins.sparse, sparse));
     }
-    paths
+    Ok(paths)
 }

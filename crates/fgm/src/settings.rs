@@ -7,6 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
+use crate::density::Density;
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
 use fgm_toolpath::{BrimOptions, FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
@@ -135,8 +136,8 @@ settings! {
     }
     #[doc = "Filling between the walls, strategy sectioned."]
     infill: InfillSettings {
-        #[doc = "How much of the inside is filled."]
-        density: f64 = 15.0, "15", "percent";
+        #[doc = "How much of the inside is filled: a number, or a formula of x, y, z and the distance d in the design's coordinates, such as \"10 + 40 z/50\", for straight patterns. Skins stay solid."]
+        density: Density = Density::Percent(15.0), "15", "percent | \"formula\"";
         #[doc = "How the lines run."]
         pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | aligned | grid | triangles | honeycomb | concentric | gyroid";
         #[doc = "Direction of the lines; rectilinear lines and skins are turned by a right angle on every other layer."]
@@ -326,7 +327,8 @@ impl Settings {
         within("section.shortest", self.section.shortest, 0.0..=1000.0, "0 to 1000 mm")?;
         within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
-        within("infill.density", self.infill.density, 0.0..=100.0, "0 to 100 percent")?;
+        let density = self.infill.density.percent().unwrap_or(0.0);
+        within("infill.density", density, 0.0..=100.0, "0 to 100 percent")?;
         within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;
         for angle in &self.infill.angles {
             within("infill.angles", *angle, -3600.0..=3600.0, "an angle in degrees")?;
@@ -413,7 +415,7 @@ mod tests {
         settings.layer.height = f64::NAN;
         assert_eq!(settings.check().unwrap_err().key, "layer.height");
         settings.layer.height = 0.2;
-        settings.infill.density = 101.0;
+        settings.infill.density = 101.0.into();
         assert_eq!(
             settings.check().unwrap_err().to_string(),
             "infill.density is 101, where 0 to 100 percent is possible"

@@ -118,7 +118,7 @@ impl<'a> Slicer<'a> {
         placement::check(&part, &bed, &self.machine.name)?;
         let threads = pool.current_num_threads();
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
-        let mut job = self.job(&outliner, &palette, layers, threads);
+        let mut job = self.job(&outliner, &palette, layers, threads)?;
 
         let mut offset = self.machine.bed.centering(&part);
         if range.start == 0 {
@@ -256,7 +256,7 @@ impl<'a> Slicer<'a> {
                 let most = self.machine.max_colors();
                 colors::auto_count(design, settings, outliner, most, &|count| {
                     let palette = colors::palette(count, design, settings, outliner)?;
-                    let job = self.job(outliner, &palette, layers, 1);
+                    let job = self.job(outliner, &palette, layers, 1)?;
                     let mut pieces = Vec::new();
                     for index in spread(layers.count(), AUTO_LAYERS) {
                         pieces.extend(job.plan(index)?.pieces);
@@ -274,10 +274,15 @@ impl<'a> Slicer<'a> {
         palette: &'j Palette,
         layers: Layers,
         threads: usize,
-    ) -> Job<'j> {
+    ) -> Result<Job<'j>, SliceError> {
         let skins = &self.settings.skins;
         let span = AHEAD_PER_THREAD * threads + skins.top + skins.bottom + 1;
-        Job {
+        let infill = &self.settings.infill;
+        let density = infill.density.field(self.design)?;
+        if density.is_some() && !infill.pattern.is_straight() {
+            return Err(SliceError::GradedPattern { pattern: infill.pattern });
+        }
+        Ok(Job {
             settings: self.settings,
             design: self.design,
             palette,
@@ -286,8 +291,9 @@ impl<'a> Slicer<'a> {
             isolines: self.settings.isoline_options(),
             boundaries: BoundaryLines::new(self.design, palette, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
+            density,
             first: 0,
-        }
+        })
     }
 
     fn stream<'s>(

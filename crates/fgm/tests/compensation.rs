@@ -14,7 +14,7 @@ const PLATE: &str =
 
 fn sliced(strategy: Strategy, changes: &str) -> Report {
     let mut settings = settings(strategy, 4);
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     let table: toml::Table = changes.parse().unwrap();
     let wanted: fgm::Settings = table.try_into().unwrap();
     settings.compensation = wanted.compensation.clone();

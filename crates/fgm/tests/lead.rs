@@ -11,7 +11,7 @@ const PLATE: &str = r#"fgrade(["x < 0", "x >= 0"], ["white", "blue"]) { rectpris
 
 fn plate(dead_volume: f64, purge: bool) -> common::Deposit {
     let mut settings = settings(Strategy::Sectioned, 2);
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     settings.infill.angle = 90.0;
     settings.walls.count = 0;
     settings.purge.enabled = Some(purge);

@@ -79,7 +79,7 @@ fn auto_takes_fewer_colors_where_pieces_get_short() {
     let mut settings = settings(Strategy::Sectioned, 1);
     settings.palette.colors = Some(ColorCount::Auto);
     settings.purge.enabled = Some(false);
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     let wide = r#"fgrade(["x/80 + 0.5", "0.5 - x/80"], ["a", "b"]) { rectprism(80, 40, 0.4); }"#;
     let narrow = r#"fgrade(["x/20 + 0.5", "0.5 - x/20"], ["a", "b"]) { rectprism(20, 10, 0.4); }"#;
     let colors = |source| slice(&parse(source), "generic-mixing", &settings).0.colors;

@@ -11,7 +11,7 @@ fn beads(design: &Design, colors: usize, printer: &str, by: SectionBy) -> Vec<Be
     settings.section.by = by;
     settings.lead.volume = Some(0.0);
     settings.purge.enabled = Some(false);
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     settings.slice.first_layer = 5;
     settings.slice.last_layer = Some(6);
     deposit(&slice(design, printer, &settings).1).beads

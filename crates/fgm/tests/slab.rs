@@ -44,7 +44,7 @@ fn covered(beads: &[&Bead]) -> f64 {
 #[test]
 fn sectioned_holds_volume_composition_and_length() {
     let mut settings = settings(Strategy::Sectioned, 16);
-    settings.infill.density = 100.0;
+    settings.infill.density = 100.0.into();
     settings.lead.volume = Some(0.0);
     let (report, gcode) = slice(&builtin("slab"), "geeetech-mizar-m", &settings);
     assert_eq!(report.layers, 10);

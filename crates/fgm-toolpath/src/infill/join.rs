@@ -73,7 +73,20 @@ pub(super) fn serpentines(
     if beads.spacing.is_some() {
         crossings = without_tips(&crossings, lattice.pitch);
     }
-    let mut joiner = Joiner::new(&rings, &crossings, lattice, laid);
+    joined(&rings, &crossings, lattice, beads, 1, laid)
+}
+
+/// Lines, given by the pairs of their ends, joined where a border leads from one to the next, at
+/// most `reach` lines of the lattice on.
+pub(super) fn joined(
+    rings: &[&Ring],
+    crossings: &[Crossing],
+    lattice: &Lattice,
+    beads: &Beads,
+    reach: i64,
+    laid: &mut Laid,
+) -> Vec<Path> {
+    let mut joiner = Joiner::new(rings, crossings, lattice, reach, laid);
     let mut out = Vec::new();
     for line in 0..crossings.len() / 2 {
         if !joiner.used[line] {
@@ -133,6 +146,8 @@ struct Joiner<'a> {
     lengths: Vec<Vec<f64>>,
     crossings: &'a [Crossing],
     lattice: &'a Lattice,
+    /// The most lines from one to the next that it is joined with.
+    reach: i64,
     /// The crossing after and before each on its ring.
     after: Vec<u32>,
     before: Vec<u32>,
@@ -148,13 +163,14 @@ impl<'a> Joiner<'a> {
         rings: &'a [&'a Ring],
         crossings: &'a [Crossing],
         lattice: &'a Lattice,
+        reach: i64,
         laid: &'a Laid,
     ) -> Self {
         let (after, before) = neighbours(crossings);
         let lengths = rings.iter().map(|r| cumulative(r)).collect();
         let used = vec![false; crossings.len() / 2];
         let linked = vec![false; crossings.len()];
-        Self { rings, lengths, crossings, lattice, after, before, used, linked, laid }
+        Self { rings, lengths, crossings, lattice, reach, after, before, used, linked, laid }
     }
 
     /// The path that begins with a line.
@@ -173,7 +189,7 @@ impl<'a> Joiner<'a> {
             self.point(self.lattice.point(end), turn, &mut points, &mut turns);
             let Some((next, forward)) = self.join(to, way) else { break };
             self.link(to, next, forward, turn, &mut points, &mut turns);
-            way = self.crossings[next].line - end.line;
+            way = (self.crossings[next].line - end.line).signum();
             self.linked[if forward { to } else { next }] = true;
             self.used[next / 2] = true;
             from = next;
@@ -217,6 +233,9 @@ impl<'a> Joiner<'a> {
     /// The crossing to go on to from the end of a line, and whether forward along the ring; one
     /// further in direction `way` is preferred.
     fn join(&self, from: usize, way: i64) -> Option<(usize, bool)> {
+        if !self.crossings[from].is_on_border() {
+            return None;
+        }
         let line = self.crossings[from].line;
         let limit = LONGEST_JOIN * self.lattice.pitch;
         [(self.after[from] as usize, true), (self.before[from] as usize, false)]
@@ -224,11 +243,12 @@ impl<'a> Joiner<'a> {
             .filter(|&(to, forward)| {
                 let step = (self.crossings[to].line - line).abs();
                 let free = self.used.get(to / 2) == Some(&false);
-                let near = || self.distance(from, to, forward) <= limit;
-                step == 1 && free && near() && !self.is_laid(from, to, forward)
+                let near = || self.distance(from, to, forward) <= limit * step as f64;
+                let next = (1..=self.reach).contains(&step);
+                next && free && near() && !self.is_laid(from, to, forward)
             })
             .min_by(|&(a, f), &(b, g)| {
-                let turns_back = |to: usize| self.crossings[to].line - line != way;
+                let turns_back = |to: usize| (self.crossings[to].line - line).signum() != way;
                 let length = |to, forward| self.distance(from, to, forward);
                 turns_back(a).cmp(&turns_back(b)).then(length(a, f).total_cmp(&length(b, g)))
             })

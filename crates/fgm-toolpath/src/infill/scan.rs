@@ -13,17 +13,27 @@ pub(super) struct Lattice {
     pub(super) phase: f64,
 }
 
-/// Where a scan line meets a border.
+/// Where a scan line meets a border, or ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Crossing {
     /// The line.
     pub(super) line: i64,
     /// Along the line.
     pub(super) u: f64,
-    /// The ring, counted over the whole region.
+    /// The ring, counted over the whole region, or [`Crossing::INSIDE`].
     pub(super) ring: u32,
     /// Along the ring: the edge's index, and the share of the edge.
     pub(super) at: f64,
+}
+
+impl Crossing {
+    /// In place of a ring where a line ends inside the region.
+    pub(super) const INSIDE: u32 = u32::MAX;
+
+    /// Whether it lies on a border, rather than being the end of a line inside.
+    pub(super) fn is_on_border(&self) -> bool {
+        self.ring != Self::INSIDE
+    }
 }
 
 impl Lattice {
