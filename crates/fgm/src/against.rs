@@ -1,7 +1,9 @@
 //! Strategy 2: every face filled against the gradient.
 
-use fgm_core::{Band, Polygon, bead};
-use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against, route};
+use std::collections::BTreeMap;
+
+use fgm_core::{ColorId, Polygon, bead};
+use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against, region, route};
 use rayon::prelude::*;
 
 use crate::{
@@ -9,13 +11,29 @@ use crate::{
     stages::timed,
 };
 
+/// The least share of its volume that a face's beads must have; else it is narrower than a bead.
+const LEAST_FILLED: f64 = 0.5;
+/// The share of a layer's area in faces narrower than a bead that is not worth a thought.
+const NEGLIGIBLE: f64 = 0.002;
+/// The most colours that are taken for one, where bands are narrower than a bead.
+const MOST_MERGED: u16 = 64;
+
+/// The faces of a layer, filled.
+pub(crate) struct Filled {
+    /// A round of pieces for each face, before ordering.
+    pub(crate) routes: Vec<Vec<Piece>>,
+    pub(crate) faces: usize,
+    /// The most colours taken for one; 1 where every band is wide enough.
+    pub(crate) merged: u16,
+}
+
 /// The pieces of a layer, a round for each face, before ordering.
 pub(crate) fn routes(
     job: &Job<'_>,
     layer: &Layer,
     region: &[Polygon],
     seconds: &mut StageSeconds,
-) -> Result<(Vec<Vec<Piece>>, usize), SliceError> {
+) -> Result<Filled, SliceError> {
     let settings = job.settings;
     let width = settings.layer.bead_width;
     // Faces are filled up to half a spacing from their border, so that neighbours' beads touch by
@@ -33,14 +51,85 @@ pub(crate) fn routes(
         ..AgainstOptions::new(width, layer.height)
     };
     timed(&mut seconds.toolpath, || {
-        let faces: Vec<_> = graded.faces().collect();
-        let fill = |(band, face): &(Band, Polygon)| -> Vec<Piece> {
-            let paths = against(std::slice::from_ref(face), &options, &job.inset);
+        let faces: Vec<_> =
+            graded.faces().map(|(band, face)| Face { color: band.first, polygon: face }).collect();
+        let fill = |face: &Face| -> Vec<Piece> {
+            let paths = against(std::slice::from_ref(&face.polygon), &options, &job.inset);
             let simple = |path: Path| path.simplified(settings.contour.resolution);
             let paths = route(paths.into_iter().map(simple).collect(), width, layer.height);
-            paths.into_iter().map(|path| path.in_color(band.first)).collect()
+            paths.into_iter().map(|path| path.in_color(face.color)).collect()
         };
         // In parallel, so that no thread waits while another fills the last layer.
-        Ok((faces.par_iter().map(fill).collect(), faces.len()))
+        let routes: Vec<Vec<Piece>> = faces.par_iter().map(fill).collect();
+        let count = faces.len();
+        let (mut filled, mut narrow) = (Vec::with_capacity(count), Vec::new());
+        for (face, route) in faces.into_iter().zip(routes) {
+            let wide = is_filled(&face, &route, layer.height);
+            if wide { filled.push(route) } else { narrow.push((face, route)) }
+        }
+        let least = NEGLIGIBLE * region::area(&region);
+        let lost: f64 = narrow.iter().map(|(face, _)| face.polygon.area()).sum();
+        let mut merged = 1;
+        if lost <= least {
+            filled.extend(narrow.into_iter().map(|(_, route)| route));
+        } else {
+            let narrow = narrow.into_iter().map(|(face, _)| face).collect();
+            let last = ColorId(job.palette.colors().saturating_sub(1) as u16);
+            merged = merge(narrow, last, layer.height, &fill, &mut filled);
+        }
+        Ok(Filled { routes: filled, faces: count, merged })
     })
+}
+
+/// A region of one colour.
+struct Face {
+    color: ColorId,
+    polygon: Polygon,
+}
+
+/// Whether a face has as much of beads as it may be expected to have.
+fn is_filled(face: &Face, route: &[Piece], height: f64) -> bool {
+    let volume = |piece: &Piece| piece.length() * bead::area(piece.width, height);
+    let volume: f64 = route.iter().map(volume).sum();
+    volume >= LEAST_FILLED * face.polygon.area() * height
+}
+
+/// Makes one face of neighbouring ones too narrow for a bead: of two colours, of four, and so on,
+/// until they are wide enough. Appends their pieces; the most colours that became one.
+fn merge(
+    mut narrow: Vec<Face>,
+    last: ColorId,
+    height: f64,
+    fill: &(dyn Fn(&Face) -> Vec<Piece> + Sync),
+    filled: &mut Vec<Vec<Piece>>,
+) -> u16 {
+    let (mut most, mut together) = (1, 2);
+    while narrow.len() > 1 && together <= MOST_MERGED {
+        let mut groups: BTreeMap<u16, Vec<Face>> = BTreeMap::new();
+        for face in narrow.drain(..) {
+            groups.entry(face.color.0 / together).or_default().push(face);
+        }
+        for (group, mut faces) in groups {
+            if faces.len() == 1 {
+                narrow.append(&mut faces);
+                continue;
+            }
+            // The colour in the middle: none of the others is off by more than half of them.
+            let color = ColorId(group * together + together / 2).min(last);
+            let polygons: Vec<Polygon> = faces.into_iter().map(|face| face.polygon).collect();
+            for polygon in region::union(&polygons, &[]) {
+                let face = Face { color, polygon };
+                let route = fill(&face);
+                if is_filled(&face, &route, height) {
+                    filled.push(route);
+                    most = most.max(together);
+                } else {
+                    narrow.push(face);
+                }
+            }
+        }
+        together *= 2;
+    }
+    filled.extend(narrow.iter().map(fill));
+    most
 }

@@ -49,6 +49,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) model_mm3: f64,
     pub(crate) seconds: StageSeconds,
     pub(crate) warnings: Vec<String>,
+    /// The most colours taken for one where bands are narrower than a bead; 1 for none.
+    pub(crate) merged: u16,
 }
 
 impl Job<'_> {
@@ -71,6 +73,7 @@ impl Job<'_> {
         let region = drawn.as_ref().unwrap_or(&outline.region).as_slice();
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
         let colors = self.palette.order(layer.index);
+        let mut merged = 1;
         let (pieces, faces) = match self.settings.slice.strategy {
             Strategy::Sectioned => {
                 let (pieces, faces) = sectioned::pieces(self, layer, region, &mut seconds)?;
@@ -84,8 +87,10 @@ impl Job<'_> {
                 (timed(&mut seconds.toolpath, order), faces)
             }
             Strategy::Against => {
-                let (routes, faces) = against::routes(self, layer, region, &mut seconds)?;
-                (timed(&mut seconds.toolpath, || order_routes(routes, &colors, start)), faces)
+                let filled = against::routes(self, layer, region, &mut seconds)?;
+                merged = filled.merged;
+                let order = || order_routes(filled.routes, &colors, start);
+                (timed(&mut seconds.toolpath, order), filled.faces)
             }
         };
         let pieces = timed(&mut seconds.toolpath, || self.with_loops(layer, region, pieces));
@@ -96,6 +101,7 @@ impl Job<'_> {
             model_mm3: area * layer.height,
             seconds,
             warnings: outline.warnings.clone(),
+            merged,
         })
     }
 

@@ -138,6 +138,7 @@ impl<'a> Slicer<'a> {
         let mut stream = self.stream(&palette, layers, &part, offset, range.clone(), out)?;
         let mut report = Report::default();
         let (mut done, total) = (0, range.len());
+        let mut merged = 1;
         progress.advance(done, total);
         let make = |index| job.plan(index);
         pipeline::ordered(&pool, range, AHEAD_PER_THREAD * threads, &make, |planned| {
@@ -145,6 +146,7 @@ impl<'a> Slicer<'a> {
                 return Err(SliceError::Cancelled);
             }
             let planned: PlannedLayer = planned?;
+            merged = merged.max(planned.merged);
             for warning in &planned.warnings {
                 let warning = format!("layer {}: {warning}", planned.index + 1);
                 progress.warn(&warning);
@@ -167,7 +169,8 @@ impl<'a> Slicer<'a> {
         report.progress = written.summary.progress;
         report.deposit = written.deposit;
         report.cooling = written.cooling;
-        if let Some(warning) = self.too_short(&written.cooling) {
+        let told = [self.too_short(&written.cooling), self.too_narrow(merged, palette.colors())];
+        for warning in told.into_iter().flatten() {
             progress.warn(&warning);
             warnings.push(warning);
         }
@@ -191,6 +194,19 @@ impl<'a> Slicer<'a> {
             );
         }
         warnings
+    }
+
+    /// That colours were taken for one.
+    fn too_narrow(&self, merged: u16, colors: usize) -> Option<String> {
+        let (least, _) = self.settings.bead_widths();
+        (merged > 1).then(|| {
+            format!(
+                "bands narrower than a bead of {least} mm were taken together, up to {merged} of the \
+                 {colors} colours for one: this part carries {} colours everywhere at this width \
+                 (--colors, against.min_width)",
+                (colors / usize::from(merged)).max(1),
+            )
+        })
     }
 
     /// That some layers have less time to cool than they should.

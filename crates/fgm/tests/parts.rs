@@ -183,3 +183,26 @@ fn a_stop_is_heard() {
     let stopped = Slicer::new(&design, &machine, &settings).slice(&mut Vec::new(), &Stop);
     assert!(matches!(stopped, Err(SliceError::Cancelled)));
 }
+
+#[test]
+fn bands_narrower_than_a_bead_are_taken_together() {
+    // 48 bands in 3 mm, and nothing changes on either side.
+    let steep = r#"fgrade(["min(1, max(0, x/3 + 0.5))", "1 - min(1, max(0, x/3 + 0.5))"], ["a", "b"])
+        { cube(20); }"#;
+    for (design, colors, warned) in [(steep, 48, true), (steep, 4, false)] {
+        let mut settings = settings(Strategy::Against, colors);
+        settings.lead.volume = Some(0.0);
+        settings.slice.last_layer = Some(3);
+        let (report, gcode) = slice(&parse(design), "generic-mixing", &settings);
+        let share = report.extruded_mm3 / report.model_mm3;
+        assert!((share - 1.0).abs() < 0.03, "{colors} colours: {share}");
+        let told = report.warnings.iter().any(|w| w.contains("narrower than a bead of 0.24 mm"));
+        assert_eq!(told, warned, "{:?}", report.warnings);
+        for bead in deposit(&gcode).beads {
+            let x = 0.5 * (bead.from.x + bead.to.x);
+            let wanted = (x / 3.0 + 0.5).clamp(0.0, 1.0);
+            // A bead may be half a millimetre from where its colour belongs.
+            assert!((bead.fraction - wanted).abs() < 0.6 / 3.0 + 0.5 / colors as f64, "{bead:?}");
+        }
+    }
+}
