@@ -15,6 +15,8 @@ use crate::{
 const LEAST_FILLED: f64 = 0.5;
 /// The share of a layer's area in faces narrower than a bead that is not worth a thought.
 const NEGLIGIBLE: f64 = 0.002;
+/// The share of the area taken together that the colours told of hold for.
+const MOST_AREA: f64 = 0.9;
 /// The most colours that are taken for one, where bands are narrower than a bead.
 const MOST_MERGED: u16 = 64;
 
@@ -23,7 +25,7 @@ pub(crate) struct Filled {
     /// A round of pieces for each face, before ordering.
     pub(crate) routes: Vec<Vec<Piece>>,
     pub(crate) faces: usize,
-    /// The most colours taken for one; 1 where every band is wide enough.
+    /// How many colours were taken for one, but for few places; 1 where every band is wide enough.
     pub(crate) merged: u16,
 }
 
@@ -95,7 +97,8 @@ fn is_filled(face: &Face, route: &[Piece], height: f64) -> bool {
 }
 
 /// Makes one face of neighbouring ones too narrow for a bead: of two colours, of four, and so on,
-/// until they are wide enough. Appends their pieces; the most colours that became one.
+/// until they are wide enough. Appends their pieces; how many colours became one in nearly all of
+/// their area.
 fn merge(
     mut narrow: Vec<Face>,
     last: ColorId,
@@ -103,7 +106,7 @@ fn merge(
     fill: &(dyn Fn(&Face) -> Vec<Piece> + Sync),
     filled: &mut Vec<Vec<Piece>>,
 ) -> u16 {
-    let (mut most, mut together) = (1, 2);
+    let (mut areas, mut together) = (Vec::new(), 2);
     while narrow.len() > 1 && together <= MOST_MERGED {
         let mut groups: BTreeMap<u16, Vec<Face>> = BTreeMap::new();
         for face in narrow.drain(..) {
@@ -122,7 +125,7 @@ fn merge(
                 let route = fill(&face);
                 if is_filled(&face, &route, height) {
                     filled.push(route);
-                    most = most.max(together);
+                    areas.push((together, face.polygon.area()));
                 } else {
                     narrow.push(face);
                 }
@@ -131,5 +134,10 @@ fn merge(
         together *= 2;
     }
     filled.extend(narrow.iter().map(fill));
-    most
+    let mut left = MOST_AREA * areas.iter().map(|(_, area)| area).sum::<f64>();
+    let enough = areas.iter().find(|(_, area)| {
+        left -= area;
+        left <= 0.0
+    });
+    enough.map_or(1, |&(together, _)| together)
 }

@@ -49,7 +49,7 @@ pub(crate) struct PlannedLayer {
     pub(crate) model_mm3: f64,
     pub(crate) seconds: StageSeconds,
     pub(crate) warnings: Vec<String>,
-    /// The most colours taken for one where bands are narrower than a bead; 1 for none.
+    /// How many colours were taken for one where bands are narrower than a bead; 1 for none.
     pub(crate) merged: u16,
 }
 

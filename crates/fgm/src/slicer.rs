@@ -201,9 +201,9 @@ impl<'a> Slicer<'a> {
         let (least, _) = self.settings.bead_widths();
         (merged > 1).then(|| {
             format!(
-                "bands narrower than a bead of {least} mm were taken together, up to {merged} of the \
-                 {colors} colours for one: this part carries {} colours everywhere at this width \
-                 (--colors, against.min_width)",
+                "bands narrower than a bead of {least} mm were taken together, mostly up to {merged} \
+                 of the {colors} colours for one: at this width the part carries about {} where \
+                 it is steepest (--colors, against.min_width)",
                 (colors / usize::from(merged)).max(1),
             )
         })
