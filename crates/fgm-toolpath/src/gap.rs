@@ -131,16 +131,18 @@ impl Fill {
         }
         let mut thickness = chain.smooth_thickness(2.0 * self.spacing);
         thickness.iter_mut().for_each(|t| *t += 2.0 * self.hair);
+        let (mut points, mut widths) = (Vec::new(), Vec::new());
         for (from, to, beads) in self.runs(chain, &thickness) {
             if beads == 0 {
                 continue;
             }
             let whole = chain.closed && from == 0 && to == thickness.len();
+            widths.clear();
+            widths.extend(thickness[from..to].iter().map(|t| t / beads as f64));
             for bead in 0..beads {
                 let share = (2 * bead + 1) as f64 / (2 * beads) as f64;
-                let points = chain.line(share, from, to);
-                let widths: Vec<f64> =
-                    thickness[from..to].iter().map(|t| t / beads as f64).collect();
+                points.clear();
+                points.extend(chain.line(share, from, to));
                 self.split(&points, &widths, whole, out);
             }
         }

@@ -25,13 +25,13 @@ use web::Web;
 /// between them. [`Path::turns`] are dropped; single lines that are joined to none stay as they are.
 /// Lines of one face are meant, which lie beside each other; others come out in any order, longest
 /// first. The cost is that of sorting the lines' vertices.
-pub fn route(paths: Vec<Path>, width: f64, height: f64) -> Vec<Path> {
+pub fn route(mut paths: Vec<Path>, width: f64, height: f64) -> Vec<Path> {
     let spacing = bead::spacing(width, height);
     let good = |p: &Path| p.points.len() >= 2 && p.points.iter().all(|p| p.is_finite());
     if paths.len() < 2 || !(spacing > 0.0 && spacing.is_finite()) || !paths.iter().all(good) {
         return paths;
     }
-    let mut web = Web::new(&strands(&paths, spacing), spacing);
+    let mut web = Web::new(&strands(&mut paths, spacing), spacing);
     bridge::bridge(&mut web);
     insert::insert(&mut web);
     web.round(&paths)

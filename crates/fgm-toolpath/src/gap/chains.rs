@@ -68,8 +68,13 @@ impl Chain {
     }
 
     /// The points at a share of the way across, from the right, of gates `from..=to`.
-    pub(super) fn line(&self, share: f64, from: usize, to: usize) -> Vec<Point2> {
-        self.gates[from..=to].iter().map(|&(r, l)| r + (l - r) * share).collect()
+    pub(super) fn line(
+        &self,
+        share: f64,
+        from: usize,
+        to: usize,
+    ) -> impl Iterator<Item = Point2> + '_ {
+        self.gates[from..=to].iter().map(move |&(r, l)| r + (l - r) * share)
     }
 }
 

@@ -14,9 +14,10 @@ pub(super) struct Strand {
 }
 
 impl Strand {
-    fn of(path: &Path, bead: u32) -> Self {
-        let segments = path.points.len() - usize::from(!path.closed);
-        Self { points: path.points.clone(), beads: vec![bead; segments], closed: path.closed }
+    fn of(path: &mut Path, bead: u32) -> Self {
+        let points = std::mem::take(&mut path.points);
+        let segments = points.len() - usize::from(!path.closed);
+        Self { points, beads: vec![bead; segments], closed: path.closed }
     }
 
     fn ends(&self) -> [Point2; 2] {
@@ -50,10 +51,11 @@ impl Strand {
     }
 }
 
-/// The strands of some paths: those that meet joined, and what runs side by side closed to loops.
-pub(super) fn strands(paths: &[Path], spacing: f64) -> Vec<Strand> {
+/// The strands of some paths, whose points they take: those that meet joined, and what runs side by
+/// side closed to loops.
+pub(super) fn strands(paths: &mut [Path], spacing: f64) -> Vec<Strand> {
     let (mut out, open): (Vec<_>, Vec<_>) =
-        paths.iter().zip(0..).map(|(p, i)| Strand::of(p, i)).partition(|s| s.closed);
+        paths.iter_mut().zip(0..).map(|(p, i)| Strand::of(p, i)).partition(|s| s.closed);
     let open = linked(open);
     let (closed, open): (Vec<_>, Vec<_>) = open.into_iter().partition(|s| s.closed);
     out.extend(closed);
