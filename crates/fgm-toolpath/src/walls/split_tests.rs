@@ -78,7 +78,9 @@ proptest! {
             // Cores no longer than a few edges may be missed, and cuts end beside them.
             let core = inset.inset(&inset.inset(&[polygon], half), 0.25 * half);
             let missed = region::intersection(&core, &parts.thin);
-            prop_assert!(region::area(&missed) < 0.5 * half * half, "{}", region::area(&missed));
+            // Where a small star's core touches the border only at the corners between its arms, as
+            // much as a disc may be.
+            prop_assert!(region::area(&missed) < 3.2 * half * half, "{}", region::area(&missed));
         }
     }
 }
