@@ -7,7 +7,8 @@ use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_ma
 use fgm::arrange::{ArrangeOptions, Arrangement, Chain};
 use fgm::core::{ColorId, Point2, Polygon, Role};
 use fgm::toolpath::{
-    AgainstOptions, ClipperInset, InfillOptions, Piece, WallOptions, against, infill, order, walls,
+    AgainstOptions, ClipperInset, InfillOptions, Path, Piece, WallOptions, against, infill, order,
+    route, walls,
 };
 use fgm_benches::{HEIGHT, WIDTH, builtin, layer, lines, middle};
 
@@ -53,6 +54,15 @@ fn fills(c: &mut Criterion) {
             let fill = |face| against(std::slice::from_ref(face), &options, &inset).len();
             black_box(&faces).iter().map(fill).sum::<usize>()
         })
+    });
+    let beads: Vec<Vec<Path>> =
+        faces.iter().map(|face| against(std::slice::from_ref(face), &options, &inset)).collect();
+    c.bench_function("toolpath/slab against the gradient, beads joined", |b| {
+        b.iter_batched(
+            || beads.clone(),
+            |beads| beads.into_iter().map(|face| route(face, WIDTH, HEIGHT).len()).sum::<usize>(),
+            criterion::BatchSize::LargeInput,
+        )
     });
 }
 
