@@ -25,11 +25,13 @@ pub enum Role {
     Support,
     /// Where the old colour goes.
     PurgeTower,
+    /// Hidden filling of the part in which the old colour goes.
+    PurgeInfill,
 }
 
 impl Role {
     /// Every role.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::OuterWall,
         Self::InnerWall,
         Self::Infill,
@@ -41,10 +43,21 @@ impl Role {
         Self::Skirt,
         Self::Support,
         Self::PurgeTower,
+        Self::PurgeInfill,
     ];
 
     /// Whether the bead belongs to the part itself.
     pub fn is_part(self) -> bool {
         !matches!(self, Self::Skirt | Self::Support | Self::PurgeTower)
+    }
+
+    /// Whether the bead takes the old colour: its mixture is not the one it should have.
+    pub fn is_purge(self) -> bool {
+        matches!(self, Self::PurgeTower | Self::PurgeInfill)
+    }
+
+    /// Whether the bead lies behind walls and skins, where nobody sees its colour.
+    pub fn is_hidden(self) -> bool {
+        matches!(self, Self::Infill | Self::SolidInfill | Self::PurgeInfill)
     }
 }

@@ -16,7 +16,7 @@
 //! | everything about a file | [`check`], [`CheckOptions`], [`CheckDesign`], [`CheckReport`] |
 //! | a layer's cells | [`Coverage`], [`LayerFigures`], [`Picture`] |
 //! | against the design | [`Fidelity`], [`Reference`], [`Shades`], [`Spread`] |
-//! | commands chosen for the deposit | [`Compensate`], [`CompensateOptions`], [`Compensated`], [`Fit`]; [`Preheat`] |
+//! | commands chosen for the deposit | [`Compensate`], [`CompensateOptions`], [`Compensated`], [`Fit`], [`HiddenFit`]; [`Preheat`] |
 //! | figures | [`Totals`], [`Figures`] |
 //! | what can go wrong | [`SimError`] |
 //!
@@ -44,7 +44,7 @@ mod totals;
 mod transition;
 
 pub use check::{CheckDesign, CheckOptions, CheckReport, CoverageFigures, OutlineAt, check};
-pub use compensate::{Compensate, CompensateOptions, Compensated, Fit, Preheat};
+pub use compensate::{Compensate, CompensateOptions, Compensated, Fit, HiddenFit, Preheat};
 pub use deposit::{Deposit, Model, Thermal};
 pub use error::SimError;
 pub use event::{Bead, Event, Heat, Layer, Travel};

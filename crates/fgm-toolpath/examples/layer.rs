@@ -47,9 +47,11 @@ fn main() -> Result<(), ToolpathError> {
 
     let part = Bounds2::new(Point2::ZERO, Point2::splat(30.0));
     let bed = Bounds2::new(Point2::splat(-60.0), Point2::splat(90.0));
-    let towers = Towers::place(&part, &bed, 3, &TowerOptions::default())?;
     let colors = [0, 1, 2].map(ColorId);
-    towers.print(&colors, None, 0, &mut pieces);
+    let volume = 68.6;
+    let options = TowerOptions { volume: 3.0 * volume, ..TowerOptions::default() };
+    let tower = Towers::place(&part, &bed, 1, &options)?;
+    pieces.extend(tower.grow(0, &colors.map(|color| (volume, color)), colors[0], 0, 0.2));
 
     let plan = LayerPlan::new(0, 0.2, 0.2, order(pieces, &colors, Point2::ZERO))?;
     let stats = plan.stats();
@@ -61,7 +63,7 @@ fn main() -> Result<(), ToolpathError> {
         "{:.1} mm³ of part, {:.1} of towers at {:?}",
         stats.volume_of(Role::is_part),
         stats.volume_of(|role| role == Role::PurgeTower),
-        towers.bounds()
+        tower.bounds()
     );
     let moves = plan.motions(None).filter(|m| matches!(m, Motion::Extrude { .. })).count();
     println!("{moves} straight beads");

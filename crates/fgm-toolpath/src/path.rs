@@ -83,6 +83,38 @@ impl Piece {
         self.points.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
+    /// The piece up to a length, mm, and the rest of it: one of them without a point where the
+    /// length is not inside the piece.
+    pub fn split(mut self, length: f64) -> (Self, Self) {
+        let mut left = length;
+        let mut cut = self.points.len();
+        if left <= 0.0 {
+            cut = 0;
+        } else {
+            for i in 1..self.points.len() {
+                let (a, b) = (self.points[i - 1], self.points[i]);
+                let step = a.distance(b);
+                if left < step {
+                    self.points.insert(i, a.lerp(b, left / step));
+                    cut = i;
+                    break;
+                }
+                if left == step && i + 1 < self.points.len() {
+                    cut = i;
+                    break;
+                }
+                left -= step;
+            }
+        }
+        let Self { role, width, color, .. } = self;
+        let mut rest = self.points.split_off(cut);
+        if cut > 0 && !rest.is_empty() {
+            self.points.extend(rest.first());
+        }
+        rest.shrink_to_fit();
+        (self, Self { points: rest, role, width, color })
+    }
+
     /// Whether it ends where it begins.
     pub fn is_loop(&self) -> bool {
         self.points.len() > 2 && self.points.first() == self.points.last()
@@ -112,6 +144,31 @@ mod tests {
             let off = |p: &Point2| (p.length() - 20.0).abs();
             assert!(simple.points.iter().all(|p| off(p) < 0.0051));
             assert_eq!(path.clone().simplified(0.0), path);
+        }
+    }
+
+    #[test]
+    fn a_piece_is_cut_in_two() {
+        let at = |x: f64| Point2::new(x, 0.0);
+        let piece = Piece {
+            points: vec![at(0.0), at(4.0), at(6.0)],
+            role: Role::Infill,
+            width: 0.4,
+            color: ColorId(3),
+        };
+        for (length, first, rest) in [
+            (-1.0, vec![], vec![0.0, 4.0, 6.0]),
+            (0.0, vec![], vec![0.0, 4.0, 6.0]),
+            (1.0, vec![0.0, 1.0], vec![1.0, 4.0, 6.0]),
+            (4.0, vec![0.0, 4.0], vec![4.0, 6.0]),
+            (5.0, vec![0.0, 4.0, 5.0], vec![5.0, 6.0]),
+            (6.0, vec![0.0, 4.0, 6.0], vec![]),
+            (9.0, vec![0.0, 4.0, 6.0], vec![]),
+        ] {
+            let (one, other) = piece.clone().split(length);
+            let xs = |piece: &Piece| piece.points.iter().map(|p| p.x).collect::<Vec<_>>();
+            assert_eq!((xs(&one), xs(&other)), (first, rest), "{length}");
+            assert_eq!((one.color, other.role), (piece.color, piece.role));
         }
     }
 }

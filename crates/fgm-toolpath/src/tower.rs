@@ -7,8 +7,8 @@ use crate::{Piece, ToolpathError, tower_layout};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct TowerOptions {
-    /// Extruded before each colour's pieces, mm³, at least: the machine's dead volume. The default
-    /// is the Geeetech Mizar M's, 960 mm of a 0.4 x 0.2 bead.
+    /// The most that a spot takes on a layer, mm³. The default is the dead volume of the Geeetech
+    /// Mizar M, 960 mm of a 0.4 x 0.2 bead: for spots that are each purged on once a layer.
     pub volume: f64,
     /// Width of the beads, mm.
     pub width: f64,
@@ -20,7 +20,7 @@ pub struct TowerOptions {
     pub gap: f64,
     /// The shortest side a spot may have, mm: a thinner one would not stand.
     pub least_side: f64,
-    /// Between the lines of a spot that is not purged on but has to grow, mm.
+    /// The most between the lines of a spot above the first layer, mm.
     pub lattice: f64,
 }
 
@@ -44,25 +44,20 @@ impl TowerOptions {
         Self { width, height, ..Self::default() }
     }
 
-    /// Length of bead that holds the volume, mm.
+    /// Length of bead that holds the volume in the thinnest layer, mm.
     pub fn length(&self) -> f64 {
-        self.length_of(self.volume)
-    }
-
-    fn length_of(&self, volume: f64) -> f64 {
-        volume / bead::area(self.width, self.height)
+        self.volume / bead::area(self.width, self.height)
     }
 
     /// The sides of a spot, beads included, whose one side is `ratio` (1 or more) times the other:
     /// the longer, the shorter, mm.
     ///
-    /// Lines of either direction in it hold the volume at their proper spacing: with sides `qy`
-    /// and `y` between the middles of the outer beads, spacing `s` and length `L`, the `k` lines
-    /// `k q y + y >= L` have room where `(k - 1) s <= y`, which `q y² + s y >= L s` ensures.
+    /// A frame of `x` by `y` between the middles of its beads and the lines inside it, all a
+    /// spacing `s` apart, are `x y / s` long or longer, in either direction.
     pub(crate) fn sides(&self, ratio: f64) -> Point2 {
-        let (s, length) = (bead::spacing(self.width, self.height), self.length());
-        let y = ((s * s + 4.0 * ratio * length * s).sqrt() - s) / (2.0 * ratio);
-        let y = y.max(self.least_side - self.width).max(s);
+        let s = bead::spacing(self.width, self.height);
+        let y = (self.length() * s / ratio).sqrt();
+        let y = y.max(self.least_side - self.width).max(4.0 * s);
         Point2::new(y * ratio, y) + self.width
     }
 
@@ -89,33 +84,31 @@ impl TowerOptions {
     }
 }
 
-/// The purge towers of a print: one spot beside the part for each colour, where the colour before
-/// goes until the new one has come through.
+/// The purge towers of a print, spots beside the part where the colour before goes until the new
+/// one has come through: one for each colour, or one for all.
 ///
 /// # The rule
-/// A tower has to stand on itself. So on every layer, from the first on, every spot is printed:
-/// - whole, with its own colour, where the nozzle changes to that colour ([`Towers::purge`]);
-/// - else as a thin lattice, in whatever colour is at hand ([`Towers::keep`]); on the first layer
-///   whole, so that it sticks.
+/// A tower has to stand on itself. So on every layer up to the last one that it is needed on
+/// ([`Towers::finish`]) every spot is printed by [`Towers::grow`]: a frame, and in it lines back
+/// and forth, along x on even layers and along y on odd ones, evenly over the whole spot. There
+/// are as many lines as the layer's purges need, but at least one every [`TowerOptions::lattice`],
+/// and on the first layer, which has to stick, as many as there is room for.
 ///
-/// A spot is left alone above the layer told to [`Towers::finish`]; a stream that does not know
-/// what is above need not call it. [`Towers::print`] applies all of this to a layer,
-/// [`Towers::keep_others`] the second part.
-///
-/// Lines run along x on even layers and along y on odd ones.
+/// All of that is one line, and each purge takes a stretch of it that holds its volume exactly,
+/// one after the other; what is left over goes to the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Towers {
     options: TowerOptions,
-    /// One a colour, with the beads.
+    /// With the beads.
     spots: Vec<Bounds2>,
     /// The last layer each is needed on.
     last: Vec<Option<usize>>,
 }
 
 impl Towers {
-    /// Finds room for the spots of `colors` colours in rows beside the part: on one side if they
-    /// fit there, the one with the fewest rows, else around the part. Spots are square where that
-    /// fits, else up to four times as long as wide.
+    /// Finds room for `count` spots in rows beside the part: on one side if they fit there, the
+    /// one with the fewest rows, else around the part. Spots are square where that fits, else up
+    /// to four times as long as wide.
     ///
     /// `part` and `bed` are in the same coordinates; the spots, beads included, lie in `bed` and
     /// [`TowerOptions::clearance`] away from `part`. Give a part that includes its skirt.
@@ -127,7 +120,7 @@ impl Towers {
     pub fn place(
         part: &Bounds2,
         bed: &Bounds2,
-        colors: usize,
+        count: usize,
         options: &TowerOptions,
     ) -> Result<Self, ToolpathError> {
         options.check()?;
@@ -136,8 +129,13 @@ impl Towers {
                 return Err(ToolpathError::BadBounds { what });
             }
         }
-        let spots = tower_layout::spots(part, bed, colors, options)?;
+        let spots = tower_layout::spots(part, bed, count, options)?;
         Ok(Self { options: *options, last: vec![None; spots.len()], spots })
+    }
+
+    /// How many spots there are.
+    pub fn count(&self) -> usize {
+        self.spots.len()
     }
 
     /// The rectangle around all spots, beads included.
@@ -145,104 +143,87 @@ impl Towers {
         self.spots.iter().fold(Bounds2::EMPTY, |all, spot| all.union(spot))
     }
 
-    /// A colour's spot, beads included.
-    pub fn spot(&self, color: ColorId) -> Option<Bounds2> {
-        self.spots.get(color.index()).copied()
+    /// A spot, beads included.
+    pub fn spot(&self, spot: usize) -> Option<Bounds2> {
+        self.spots.get(spot).copied()
     }
 
-    /// Tells that a colour is not changed to above layer `last`.
-    pub fn finish(&mut self, color: ColorId, last: usize) {
-        if let Some(slot) = self.last.get_mut(color.index()) {
+    /// Tells that a spot is not purged on above layer `last`.
+    pub fn finish(&mut self, spot: usize, last: usize) {
+        if let Some(slot) = self.last.get_mut(spot) {
             *slot = Some(last);
         }
     }
 
-    /// Appends a block that holds at least the volume, and less than a line more (at least two
-    /// lines), on the spot of a colour; nothing for a colour that has none.
-    pub fn purge(&self, color: ColorId, layer: usize, out: &mut Vec<Piece>) {
-        self.purge_volume(color, self.options.volume, layer, out);
-    }
-
-    /// As [`purge`](Self::purge), with another volume, mm³: one that is less than the towers' own
-    /// spreads its lines over the spot. On layer 0 the block is whole, so that it sticks.
-    pub fn purge_volume(&self, color: ColorId, volume: f64, layer: usize, out: &mut Vec<Piece>) {
-        if let Some(spot) = self.spot(color) {
-            let (along, across) = self.sides(&spot, layer);
-            let whole = self.options.length();
-            let length = if layer == 0 { whole } else { self.options.length_of(volume).min(whole) };
-            let lines = ((length - across) / along - 1e-9).ceil().max(2.0);
-            out.push(self.serpentine(&spot, layer, lines as u32, color));
-        }
-    }
-
-    /// Appends what a spot that is not purged on needs to grow, printed in colour `with`: a
-    /// lattice, on layer 0 a whole block.
-    pub fn keep(&self, color: ColorId, with: ColorId, layer: usize, out: &mut Vec<Piece>) {
-        if layer == 0 {
-            let first = out.len();
-            self.purge(color, layer, out);
-            out[first..].iter_mut().for_each(|piece| piece.color = with);
-        } else if let Some(spot) = self.spot(color) {
-            let (_, across) = self.sides(&spot, layer);
-            let lines = (across / self.options.lattice).ceil() + 1.0;
-            out.push(self.serpentine(&spot, layer, lines as u32, with));
-        }
-    }
-
-    /// Appends all that the towers need on a layer that is printed in the colours `used`, in that
-    /// order, after a layer that ended in `previous`.
+    /// What a spot takes on a layer (from 0) of this height, mm: a piece for each purge, its
+    /// volume in mm³ and its colour, in that order; one piece in the colour `hand` where there is
+    /// no purge and the spot has to grow. Nothing above its last layer, and for a spot that there
+    /// is not.
     ///
-    /// The first colour is not purged for where it is `previous`. A layer without colours gets
-    /// nothing.
-    pub fn print(
+    /// A piece begins where the one before it ends and holds its volume; the last may hold more.
+    /// Purges that are together more than the spot has room for all get less, in proportion.
+    pub fn grow(
         &self,
-        used: &[ColorId],
-        previous: Option<ColorId>,
+        spot: usize,
+        purges: &[(f64, ColorId)],
+        hand: ColorId,
         layer: usize,
-        out: &mut Vec<Piece>,
-    ) {
-        let Some(&hand) = used.first() else { return };
-        let changes = if previous == Some(hand) { &used[1..] } else { used };
-        changes.iter().for_each(|&color| self.purge(color, layer, out));
-        self.keep_others(changes, hand, layer, out);
-    }
-
-    /// Appends what every spot but those of `purged` needs to grow, printed in colour `with`; for
-    /// those who place the purges of a layer themselves.
-    pub fn keep_others(
-        &self,
-        purged: &[ColorId],
-        with: ColorId,
-        layer: usize,
-        out: &mut Vec<Piece>,
-    ) {
-        for (last, color) in self.last.iter().zip((0..).map(ColorId)) {
-            if !purged.contains(&color) && last.is_none_or(|last| layer <= last) {
-                self.keep(color, with, layer, out);
-            }
+        height: f64,
+    ) -> Vec<Piece> {
+        let over = self.last.get(spot).copied().flatten().is_some_and(|last| layer > last);
+        let Some(spot) = self.spot(spot).filter(|_| !over || !purges.is_empty()) else {
+            return Vec::new();
+        };
+        let area = bead::area(self.options.width, height);
+        let needed: f64 = purges.iter().map(|(volume, _)| volume / area).sum();
+        let line = self.line(&spot, needed, layer, height);
+        let piece = |points, color| {
+            let width = self.options.width;
+            Piece { points, role: Role::PurgeTower, width, color }
+        };
+        let Some((last, others)) = purges.split_last() else { return vec![piece(line, hand)] };
+        let mut rest = piece(line, last.1);
+        let share = (rest.length() / needed).min(1.0);
+        let mut pieces = Vec::with_capacity(purges.len());
+        for &(volume, color) in others {
+            let (first, second) = rest.split(share * volume / area);
+            pieces.push(Piece { color, ..first });
+            rest = second;
         }
+        pieces.push(rest);
+        pieces
     }
 
-    /// Length of a line and the width of a block of them, between the middles of beads, mm.
-    fn sides(&self, spot: &Bounds2, layer: usize) -> (f64, f64) {
-        let size = spot.size() - self.options.width;
-        if layer.is_multiple_of(2) { (size.x, size.y) } else { (size.y, size.x) }
-    }
-
-    /// Lines back and forth, evenly over the whole spot.
-    fn serpentine(&self, spot: &Bounds2, layer: usize, lines: u32, color: ColorId) -> Piece {
-        let (along, across) = self.sides(spot, layer);
-        let corner = spot.min + self.options.width * 0.5;
-        let step = across / f64::from(lines.saturating_sub(1).max(1));
-        let mut points = Vec::with_capacity(2 * lines as usize);
-        for i in 0..lines {
-            let (start, end) = if i % 2 == 0 { (0.0, along) } else { (along, 0.0) };
-            points.extend([start, end].map(|at| {
-                let (u, v) = (at, f64::from(i) * step);
-                corner + if layer.is_multiple_of(2) { Point2::new(u, v) } else { Point2::new(v, u) }
-            }));
+    /// The frame of a spot and the lines inside, at least `needed` mm where there is room.
+    fn line(&self, spot: &Bounds2, needed: f64, layer: usize, height: f64) -> Vec<Point2> {
+        let TowerOptions { width, lattice, .. } = self.options;
+        let spacing = bead::spacing(width, height);
+        let upright = !layer.is_multiple_of(2);
+        let turned = |p: Point2| if upright { Point2::new(p.y, p.x) } else { p };
+        let size = turned(spot.size() - width);
+        let inner = (size - 2.0 * spacing).max(Point2::ZERO);
+        let room = (inner.y / spacing + 1e-9).floor() + 1.0;
+        let frame = 2.0 * (size.x + size.y) + spacing * std::f64::consts::SQRT_2;
+        let lines = if layer == 0 {
+            room
+        } else {
+            let least = (inner.y / lattice).ceil() + 1.0;
+            let wanted = ((needed - frame - inner.y) / inner.x - 1e-9).ceil();
+            wanted.max(least).min(room)
+        };
+        let step = inner.y / (lines - 1.0).max(1.0);
+        let mut points = Vec::with_capacity(5 + 2 * lines as usize);
+        let corners = [(0.0, 0.0), (0.0, size.y), (size.x, size.y), (size.x, 0.0), (0.0, 0.0)];
+        points.extend(corners.map(|(x, y)| Point2::new(x, y)));
+        for i in 0..lines as u32 {
+            let y = spacing + f64::from(i) * step;
+            let ends = [spacing, spacing + inner.x];
+            let [start, end] = if i % 2 == 0 { ends } else { [ends[1], ends[0]] };
+            points.extend([Point2::new(start, y), Point2::new(end, y)]);
         }
-        Piece { points, role: Role::PurgeTower, width: self.options.width, color }
+        let corner = spot.min + width * 0.5;
+        points.iter_mut().for_each(|p| *p = corner + turned(*p));
+        points
     }
 }
 

@@ -134,65 +134,91 @@ proptest! {
     }
 
     #[test]
-    fn a_purge_holds_its_volume_within_a_line(
-        volume in 5.0..200.0f64, width in 0.3..0.9f64, height in 0.1..0.3f64,
-        ratio in 1.0..4.0f64, layer in 0..2usize,
+    fn purges_hold_their_volumes_one_after_the_other(
+        volumes in prop::collection::vec(0.5..60.0f64, 1..6),
+        width in 0.3..0.9f64, height in 0.1..0.3f64, thicker in 1.0..1.3f64,
+        ratio in 1.0..4.0f64, layer in 0..3usize,
     ) {
+        let volume = volumes.iter().sum();
         let options = TowerOptions { volume, width, height, ..TowerOptions::default() };
         let mut towers = place(&options, 1);
-        let size = options.sides(ratio);
-        towers.spots[0] = Bounds2::new(Point2::ZERO, size);
-        let mut out = Vec::new();
-        towers.purge(ColorId(0), layer, &mut out);
+        towers.spots[0] = Bounds2::new(Point2::ZERO, options.sides(ratio));
+        let purges: Vec<_> = volumes.iter().map(|v| (*v, ColorId(1))).collect();
+        let height = (height * thicker).min(width);
+        let out = towers.grow(0, &purges, ColorId(0), layer, height);
+        prop_assert_eq!(out.len(), purges.len());
         let area = bead::area(width, height);
-        let (along, _) = towers.sides(&towers.spots[0], layer);
-        let extruded = out[0].length() * area;
-        prop_assert!(extruded >= volume * (1.0 - 1e-6), "{extruded} of {volume}");
-        prop_assert!(extruded < volume + along * area || out[0].points.len() == 4);
+        for (i, (piece, volume)) in out.iter().zip(&volumes).enumerate() {
+            let extruded = piece.length() * area;
+            prop_assert!(extruded >= volume * (1.0 - 1e-9), "{} of {}", extruded, volume);
+            if let Some(next) = out.get(i + 1) {
+                prop_assert!(extruded <= volume * (1.0 + 1e-9));
+                prop_assert_eq!(piece.points.last(), next.points.first());
+            }
+        }
         // Inside the spot, and no line nearer to the next than beads may lie.
         let inner = towers.spots[0].grown(1e-9 - width / 2.0);
-        prop_assert!(out[0].points.iter().all(|p| inner.contains(*p)));
-        let step = out[0].points[1].distance(out[0].points[2]);
+        let line = towers.line(&towers.spots[0], 0.0, layer, height);
+        prop_assert!(out.iter().flat_map(|piece| &piece.points).all(|p| inner.contains(*p)));
+        let room = towers.line(&towers.spots[0], f64::INFINITY, layer, height);
+        let step = room[6].distance(room[7]);
         prop_assert!(step >= bead::spacing(width, height) - 1e-9);
+        prop_assert!(line.len() <= room.len());
+        // No more than a line is left over above the first layer, or what it takes to stand.
+        let whole: f64 = out.iter().map(Piece::length).sum();
+        let needed: f64 = volumes.iter().sum::<f64>() / area;
+        let longest = options.sides(ratio).max_element();
+        let standing = Piece { points: line, ..out[0].clone() }.length();
+        prop_assert!(layer == 0 || whole <= (needed + longest).max(standing + 1e-9));
     }
 }
 
-/// What is printed on each spot of a layer: `P` whole, `l` a lattice, and in which colour.
-fn told(towers: &Towers, used: &[u16], previous: Option<u16>, layer: usize) -> String {
-    let used: Vec<_> = used.iter().copied().map(ColorId).collect();
-    let mut out = Vec::new();
-    towers.print(&used, previous.map(ColorId), layer, &mut out);
-    let whole = towers.options.length() * (1.0 - 1e-9);
-    let spot = |piece: &Piece| {
-        let on = towers.spots.iter().position(|s| s.contains(piece.points[0])).unwrap();
-        let kind = if piece.length() >= whole { 'P' } else { 'l' };
-        assert_eq!(piece.role, Role::PurgeTower);
-        format!("{on}{kind}{}", piece.color.0)
-    };
-    out.iter().map(spot).collect::<Vec<_>>().join(" ")
+/// What is printed on each spot of a layer: its colour and whether it is a lattice (`l`) or holds
+/// a purge (`P`).
+fn told(towers: &Towers, purged: &[usize], layer: usize) -> String {
+    let mut told = Vec::new();
+    for spot in 0..towers.count() {
+        let purges: Vec<_> =
+            purged.iter().filter(|p| **p == spot).map(|_| (68.6, ColorId(7))).collect();
+        for piece in towers.grow(spot, &purges, ColorId(1), layer, 0.2) {
+            assert_eq!(piece.role, Role::PurgeTower);
+            let whole = piece.length() >= towers.options.length() * (1.0 - 1e-9);
+            told.push(format!("{spot}{}{}", if whole { 'P' } else { 'l' }, piece.color.0));
+        }
+    }
+    told.join(" ")
 }
 
 #[test]
 fn every_spot_grows_until_told_it_is_over() {
     let mut towers = place(&TowerOptions::default(), 3);
-    assert_eq!(told(&towers, &[1, 2], None, 0), "1P1 2P2 0P1");
-    assert_eq!(told(&towers, &[2, 1], Some(2), 1), "1P1 0l2 2l2");
-    assert_eq!(told(&towers, &[1, 2], Some(2), 2), "1P1 2P2 0l1");
-    assert_eq!(told(&towers, &[], Some(2), 3), "");
-    towers.finish(ColorId(0), 0);
-    towers.finish(ColorId(2), 3);
-    assert_eq!(told(&towers, &[1], Some(1), 3), "1l1 2l1");
-    assert_eq!(told(&towers, &[1], Some(1), 4), "1l1");
+    assert_eq!(told(&towers, &[1, 2], 0), "0P1 1P7 2P7");
+    assert_eq!(told(&towers, &[1], 1), "0l1 1P7 2l1");
+    towers.finish(0, 0);
+    towers.finish(2, 3);
+    assert_eq!(told(&towers, &[], 3), "1l1 2l1");
+    assert_eq!(told(&towers, &[1], 4), "1P7");
+    assert!(towers.grow(3, &[], ColorId(0), 0, 0.2).is_empty());
 }
 
 #[test]
-fn directions_alternate_and_unknown_colours_have_no_spot() {
+fn a_spot_is_a_frame_and_lines_across_it() {
     let towers = place(&TowerOptions::default(), 1);
-    let mut out = Vec::new();
-    towers.purge(ColorId(0), 0, &mut out);
-    towers.purge(ColorId(0), 1, &mut out);
-    towers.purge(ColorId(1), 1, &mut out);
-    assert_eq!(out.len(), 2);
-    assert_eq!(out[0].points[0].y, out[0].points[1].y);
-    assert_eq!(out[1].points[0].x, out[1].points[1].x);
+    for layer in 1..3 {
+        let line = &towers.grow(0, &[], ColorId(0), layer, 0.2)[0].points;
+        let corners = Bounds2::new(line[0], line[2]);
+        assert!((corners.size() + 0.4 - towers.spots[0].size()).length() < 1e-9);
+        assert_eq!(line[4], line[0]);
+        let across = if layer % 2 == 0 { line[6].y - line[5].y } else { line[6].x - line[5].x };
+        assert_eq!(across, 0.0, "{line:?}");
+        assert!(line[6].distance(line[7]) <= 4.0);
+    }
+}
+
+#[test]
+fn what_has_no_room_is_shared_out() {
+    let towers = place(&TowerOptions::default(), 1);
+    let purges = [(100.0, ColorId(1)), (300.0, ColorId(2))];
+    let out = towers.grow(0, &purges, ColorId(0), 1, 0.2);
+    assert!((3.0 * out[0].length() - out[1].length()).abs() < 1e-6);
 }

@@ -93,42 +93,36 @@ pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
     })
 }
 
-/// The last layer of `range` in which each colour may occur, counted from the range's first; none
-/// for one that occurs in no layer.
+/// Which colours may occur in each layer of `range`.
 ///
-/// From the bounds of the fractions over whole layers: never too low, often too high.
-pub(crate) fn last_layers(
+/// From the bounds of the fractions over whole layers: never too few, often too many.
+pub(crate) fn occurring(
     design: &Design,
     palette: &Palette,
-    window: &Bounds2,
+    window: Bounds2,
     layers: Layers,
     range: Range<usize>,
-) -> Vec<Option<usize>> {
-    let mut last = vec![None; palette.colors()];
+) -> impl Iterator<Item = Vec<bool>> {
     // Half a band about a state is its band; the overlap of a zipper reaches beyond.
     let reach = palette.half_band() + palette.overlap() + 1e-9;
-    for (count, index) in range.enumerate() {
+    range.map(move |index| {
         let cut = layers.get(index).cut;
         let bounds: Vec<Interval> = (0..design.materials.len())
-            .map(|m| design.fractions.fraction(m).at_z(cut).bounds(window))
+            .map(|m| design.fractions.fraction(m).at_z(cut).bounds(&window))
             .collect();
         if bounds.iter().all(|b| b.lo == b.hi)
             && let Ok(mixture) = design.fractions.mixture(window.center().extend(cut))
         {
             let band = palette.band(&mixture);
-            last[band.first.index()] = Some(count);
-            last[band.second.index()] = Some(count);
-            continue;
+            return ids(palette).map(|id| id == band.first || id == band.second).collect();
         }
-        for (color, last) in ids(palette).zip(&mut last) {
+        let occurs = |color: ColorId| {
             let state = palette.state(color);
             let mut of_materials = bounds.iter().zip(state.fractions());
-            if of_materials.all(|(b, f)| b.lo <= f + reach && f - reach <= b.hi) {
-                *last = Some(count);
-            }
-        }
-    }
-    last
+            of_materials.all(|(b, f)| b.lo <= f + reach && f - reach <= b.hi)
+        };
+        ids(palette).map(occurs).collect()
+    })
 }
 
 /// The number of colours where none is asked for.

@@ -14,6 +14,7 @@ use crate::{
     foot,
     layers::{Layer, Layers},
     outlines::OutlineWindow,
+    purge::{Needs, hidden_first},
     sectioned,
     settings::Settings,
     stages::{StageSeconds, timed},
@@ -32,6 +33,8 @@ pub(crate) struct Job<'a> {
     pub(crate) inset: ClipperInset,
     /// The density of the infill, percent, where it varies.
     pub(crate) density: Option<ExprField>,
+    /// What changes of colour need, where hidden filling is to take it.
+    pub(crate) hidden_purges: Option<Needs>,
     /// The layer that lies on the bed, from 0.
     pub(crate) first: usize,
 }
@@ -80,7 +83,12 @@ impl Job<'_> {
                 let corner = self.design.bounds.max.truncate();
                 let options = self.settings.order_options(layer.index, corner);
                 let order = || {
-                    let mut pieces = order_with(pieces, &colors, start, &options);
+                    let mut pieces = match &self.hidden_purges {
+                        Some(needs) => {
+                            hidden_first(pieces, &colors, start, &options, needs, layer.height)
+                        }
+                        None => order_with(pieces, &colors, start, &options),
+                    };
                     join_ends(&mut pieces, layer.height);
                     pieces
                 };

@@ -76,6 +76,7 @@ pub use inspect::{Inspection, MaterialRange, inspect};
 pub use layers::{Layer, Layers};
 pub use machine::machine;
 pub use progress::{Progress, Quiet};
+pub use purge::{PurgeInto, PurgeLayout, PurgeReport, PurgeSavings, Saving};
 pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{

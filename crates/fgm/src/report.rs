@@ -3,7 +3,7 @@ use fgm_gcode::{Machine, MachineKind, ProgressLines};
 use fgm_sim::{Compensated, Fit};
 use serde::Serialize;
 
-use crate::{choice::Aim, stages::StageSeconds};
+use crate::{choice::Aim, purge::PurgeReport, stages::StageSeconds};
 
 /// The figures of a slice.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -51,6 +51,9 @@ pub struct Report {
     pub progress: ProgressLines,
     /// Each input material: name, volume mm³, length of filament m, mass g.
     pub materials: Vec<MaterialUse>,
+    /// Where the old colour went, and what that saved; none where nothing is purged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub purge: Option<PurgeReport>,
     /// How far the deposit is predicted to be from what it is to be; none for a printer without a
     /// transition.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -87,6 +90,12 @@ pub struct DepositReport {
     /// For transitions that are off by `compensation.uncertainty`: both volumes more, both less,
     /// the delay more and the change less, the delay less and the change more.
     pub off: Vec<DepositFit>,
+    /// Volume of hidden infill that took the old colour, mm³; it is not part of the errors above.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hidden_mm3: Option<f64>,
+    /// Root mean square error there, from the design, with the commands written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hidden_rms: Option<f64>,
     /// Commands written.
     pub commands: u64,
 }
@@ -114,7 +123,15 @@ impl DepositReport {
         };
         let (first, off) = done.fits.split_first()?;
         let off = off.iter().map(fit).collect();
-        Some(Self { compensated, aim, fit: fit(first), off, commands: done.commands })
+        Some(Self {
+            compensated,
+            aim,
+            fit: fit(first),
+            off,
+            hidden_mm3: done.hidden.map(|hidden| hidden.volume),
+            hidden_rms: done.hidden.map(|hidden| hidden.told),
+            commands: done.commands,
+        })
     }
 }
 

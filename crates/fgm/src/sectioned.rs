@@ -76,7 +76,8 @@ struct Neighbours {
 
 impl Neighbours {
     fn of(job: &Job<'_>, layer: &Layer, seconds: &mut StageSeconds) -> Result<Self, SliceError> {
-        if job.settings.infill.density.percent().is_some_and(|percent| percent >= 100.0) {
+        // What is solid anyway has no skins, unless it matters what is seen of it.
+        if is_solid(job) && job.hidden_purges.is_none() {
             return Ok(Self { above: Vec::new(), below: Vec::new() });
         }
         let get = |index: Option<usize>| match index {
@@ -93,6 +94,11 @@ impl Neighbours {
             })
         })
     }
+}
+
+/// Whether the part is filled all over.
+fn is_solid(job: &Job<'_>) -> bool {
+    job.settings.infill.density.percent().is_some_and(|percent| percent >= 100.0)
 }
 
 fn paths(
@@ -118,7 +124,11 @@ fn paths(
         role: Role::Infill,
     };
     let fill = |region: &[Polygon], options: InfillOptions| infill(region, &options, &job.inset);
-    if sparse.density >= 1.0 {
+    let sparse = match &job.hidden_purges {
+        Some(_) if is_solid(job) => InfillOptions { role: Role::SolidInfill, ..sparse },
+        _ => sparse,
+    };
+    if is_solid(job) && job.hidden_purges.is_none() {
         let role = match layer.index {
             0 => Role::BottomSkin,
             i if i + 1 == job.layers.count() => Role::TopSkin,

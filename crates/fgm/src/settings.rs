@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
 use crate::density::Density;
+use crate::purge::{PurgeInto, PurgeLayout};
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
 use fgm_toolpath::{BrimOptions, FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
@@ -165,14 +166,18 @@ settings! {
     }
     #[doc = "Where the old colour goes, strategy sectioned."]
     purge: PurgeSettings {
-        #[doc = "Whether to print purge towers."]
+        #[doc = "Whether to purge."]
         enabled: Option<bool> = None, "on for mixing and foaming", "true | false";
         #[doc = "Least volume of a purge; where left out and the printer has a transition, what each change needs to come within the tolerance, else the dead volume."]
         volume: Option<f64> = None, "by the transition, or the dead volume", "mm3";
         #[doc = "How far the mixture may be from its goal where a purge by the transition ends."]
         tolerance: f64 = 0.01, "0.01", "share";
-        #[doc = "Change of mixture at or below which no purge is printed."]
-        threshold: f64 = 0.0, "0", "share";
+        #[doc = "No purge where the step of the mixture times the dead volume, what comes out wrong, is at or below this; no tower where that is so at every change."]
+        threshold: f64 = 0.0, "0", "mm3";
+        #[doc = "One tower that all colours share, or a spot for each."]
+        layout: Option<PurgeLayout> = None, "\"one\", or \"spots\" where that has no room", "one | spots";
+        #[doc = "What takes the old colour: the towers, or first the infill behind the walls, which then has the wrong mixture there."]
+        into: PurgeInto = PurgeInto::Tower, "\"tower\"", "tower | infill";
         #[doc = "Room between the part and the towers."]
         clearance: f64 = 5.0, "5", "mm";
     }
@@ -342,7 +347,7 @@ impl Settings {
         within("against.min_width", least, f64::MIN_POSITIVE..=f64::MAX, "above 0 mm")?;
         within("against.max_width", most, least..=f64::MAX, "at least against.min_width")?;
         within("purge.volume", self.purge.volume.unwrap_or(0.0), 0.0..=1e5, "0 to 100000 mm3")?;
-        within("purge.threshold", self.purge.threshold, 0.0..=1.0, "0 to 1")?;
+        within("purge.threshold", self.purge.threshold, 0.0..=1e6, "0 to 1000000 mm3")?;
         within("purge.tolerance", self.purge.tolerance, 0.0..=1.0, "0 to 1")?;
         within("purge.clearance", self.purge.clearance, 0.0..=1e3, "0 to 1000 mm")?;
         within("lead.volume", self.lead.volume.unwrap_or(0.0), 0.0..=1e6, "0 to 1000000 mm3")?;

@@ -19,8 +19,9 @@ use crate::{
     outlines::{OutlineWindow, Outliner},
     pipeline, placement,
     progress::Progress,
-    purge::{self, Purge},
+    purge::{self, Demand, Needs, Purge, PurgeReport},
     report::{CoolingReport, Report, material_use},
+    samples,
     settings::{CoolingSettings, Settings},
     stages::{StageSeconds, timed},
     stream::Stream,
@@ -135,7 +136,9 @@ impl<'a> Slicer<'a> {
                 warnings.last().into_iter().for_each(|w| progress.warn(w));
             }
         }
-        let mut stream = self.stream(&palette, layers, &part, offset, range.clone(), out)?;
+        let place = (&part, offset);
+        let purge = self.purge(&outliner, &palette, layers, range.clone(), place)?;
+        let mut stream = self.stream(&palette, layers, offset, &range, purge, out)?;
         let mut report = Report::default();
         let (mut done, total) = (0, range.len());
         let mut merged = 1;
@@ -168,8 +171,13 @@ impl<'a> Slicer<'a> {
         self.fill(&mut report, &written.summary, palette.colors(), total);
         report.progress = written.summary.progress;
         report.deposit = written.deposit;
+        report.purge = written.purge;
         report.cooling = written.cooling;
-        let told = [self.too_short(&written.cooling), self.too_narrow(merged, palette.colors())];
+        let told = [
+            self.too_short(&written.cooling),
+            self.too_narrow(merged, palette.colors()),
+            report.purge.as_ref().and_then(unpurged),
+        ];
         for warning in told.into_iter().flatten() {
             progress.warn(&warning);
             warnings.push(warning);
@@ -308,23 +316,60 @@ impl<'a> Slicer<'a> {
             boundaries: BoundaryLines::new(self.design, palette, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
             density,
+            hidden_purges: purge::hides(self.machine, self.settings)
+                .then(|| self.needs(colors::ids(palette).map(|c| palette.state(c)).collect())),
             first: 0,
         })
+    }
+
+    /// The dead volume that commands go ahead by, mm³.
+    fn lead(&self) -> f64 {
+        self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume())
+    }
+
+    fn needs(&self, palette: Vec<Mixture>) -> Needs {
+        Needs::new(self.machine, self.settings, self.lead(), palette)
+    }
+
+    /// The purges of a print; none where none are wanted.
+    fn purge(
+        &self,
+        outliner: &Outliner<'_>,
+        palette: &Palette,
+        layers: Layers,
+        range: Range<usize>,
+        place: (&Bounds3, Point3),
+    ) -> Result<Option<Purge>, SliceError> {
+        if !purge::wanted(self.machine, self.settings) {
+            return Ok(None);
+        }
+        let needs = self.needs(colors::ids(palette).map(|c| palette.state(c)).collect());
+        let occurring = colors::occurring(self.design, palette, place.0.xy(), layers, range);
+        let mut demand = Demand::of(&needs, occurring);
+        // Bounds cannot tell that colours between two others do occur, so that no step is large.
+        if self.settings.purge.threshold > 0.0 && demand.last_change.is_some() {
+            let points = samples::inside(outliner, &self.design.bounds)?;
+            let material = self.design.fractions.as_ref();
+            if !purge::is_needed(&needs, palette, material, &points)? {
+                demand.last_change = None;
+            }
+        }
+        Purge::new(self.machine, self.settings, needs, &demand, place).map(Some)
     }
 
     fn stream<'s>(
         &'s self,
         palette: &'s Palette,
         layers: Layers,
-        part: &Bounds3,
         offset: Point3,
-        range: Range<usize>,
+        range: &Range<usize>,
+        purge: Option<Purge>,
         out: &'s mut dyn Write,
     ) -> Result<Stream<'s>, SliceError> {
         let mixtures: Vec<Mixture> = colors::ids(palette).map(|c| palette.state(c)).collect();
         let states = self.machine.states(&mixtures)?;
-        let lead = self.settings.lead.volume.unwrap_or_else(|| self.machine.dead_volume());
-        let resolved = self.resolved(&mixtures, lead, &range);
+        let lead = self.lead();
+        let resolved = self.resolved(&mixtures, lead, range, purge.as_ref());
         let mut comments = vec![format!("fgm {}", env!("CARGO_PKG_VERSION"))];
         comments.extend(self.head.iter().cloned());
         comments.extend(head::lines(&resolved, self.machine));
@@ -334,13 +379,11 @@ impl<'a> Slicer<'a> {
             colors: mixtures.iter().map(|m| colors::shown(self.design, m)).collect(),
             ..WriterOptions::of(self.machine)
         };
-        let last = colors::last_layers(self.design, palette, &part.xy(), layers, range);
-        let place = (part, offset);
         let (machine, settings) = (self.machine, self.settings);
         Ok(Stream {
             ahead: Ahead::new(machine, settings, lead, &mixtures, &states),
             writer: Writer::new(out, machine, &states, &options)?,
-            purge: Purge::new(machine, settings, lead, &mixtures, &last, place)?,
+            purge,
             target: Target::of(self.design, settings),
             cooling: Cooling::new(machine, &states, &settings.cooling),
             layers,
@@ -350,7 +393,13 @@ impl<'a> Slicer<'a> {
     }
 
     /// The settings with what was left to the machine or to other settings.
-    fn resolved(&self, palette: &[Mixture], lead: f64, range: &Range<usize>) -> Settings {
+    fn resolved(
+        &self,
+        palette: &[Mixture],
+        lead: f64,
+        range: &Range<usize>,
+        purge: Option<&Purge>,
+    ) -> Settings {
         let mut resolved = self.settings.clone();
         let (least, most) = self.settings.bead_widths();
         resolved.slice.first_layer = range.start + 1;
@@ -361,9 +410,9 @@ impl<'a> Slicer<'a> {
         resolved.against.max_width = Some(most);
         let corner = self.design.bounds.max.truncate();
         resolved.order.seam_point = Some(self.settings.order.seam_point.unwrap_or(corner.into()));
-        resolved.purge.enabled = Some(purge::wanted(self.machine, self.settings));
-        let purge = purge::largest(self.machine, self.settings, lead, palette);
-        resolved.purge.volume = Some(purge);
+        resolved.purge.enabled = Some(purge.is_some());
+        resolved.purge.volume = Some(self.needs(palette.to_vec()).most());
+        resolved.purge.layout = purge.and_then(Purge::layout);
         let shapes = self.machine.transition.volumes().is_some();
         let compensation = &mut resolved.compensation;
         compensation.enabled = Some(compensation.enabled.unwrap_or(true) && shapes);
@@ -397,6 +446,17 @@ impl<'a> Slicer<'a> {
         report.print_time_s = summary.print_time_s;
         report.materials = material_use(self.design, self.machine, &summary.filament_mm3);
     }
+}
+
+/// That changes were found that no tower was made for.
+fn unpurged(purge: &PurgeReport) -> Option<String> {
+    let (count, changes) = (purge.unpurged, purge.changes);
+    (count > 0).then(|| {
+        format!(
+            "{count} of {changes} changes of colour are above purge.threshold and have no tower: \
+             samples of the part had shown none (a lower threshold makes one)"
+        )
+    })
 }
 
 /// How many of the lowest layers have nothing to print: the tip of a sphere or of a tilted part.

@@ -12,7 +12,7 @@ use crate::{
     error::SliceError,
     job::PlannedLayer,
     layers::Layers,
-    purge::Purge,
+    purge::{Purge, PurgeReport},
     report::{CoolingReport, DepositReport},
     target::Target,
 };
@@ -37,14 +37,15 @@ pub(crate) struct Written {
     pub(crate) summary: Summary,
     pub(crate) deposit: Option<DepositReport>,
     pub(crate) cooling: CoolingReport,
+    pub(crate) purge: Option<PurgeReport>,
 }
 
 impl Stream<'_> {
     /// Writes a layer.
     pub(crate) fn push(&mut self, planned: PlannedLayer) -> Result<(), SliceError> {
         let layer = self.layers.get(planned.index);
-        let pieces = match &self.purge {
-            Some(purge) => purge.with_towers(planned.pieces, self.color, self.count),
+        let pieces = match &mut self.purge {
+            Some(purge) => purge.lay(planned.pieces, self.color, self.count, layer.height),
             None => planned.pieces,
         };
         let index = u32::try_from(planned.index).unwrap_or(u32::MAX);
@@ -67,9 +68,10 @@ impl Stream<'_> {
 
     /// Writes the rest.
     pub(crate) fn finish(self) -> Result<Written, GcodeError> {
-        let Self { ahead, mut writer, cooling, .. } = self;
+        let Self { ahead, mut writer, cooling, purge, .. } = self;
         let deposit = ahead.finish(|step| writer.push(step))?;
         let cooling = cooling.map_or_else(CoolingReport::default, |c| c.report());
-        Ok(Written { summary: writer.finish()?, deposit, cooling })
+        let purge = purge.map(Purge::finish);
+        Ok(Written { summary: writer.finish()?, deposit, cooling, purge })
     }
 }

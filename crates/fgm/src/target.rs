@@ -1,9 +1,9 @@
 //! What the deposit is to be along each bead, where commands are chosen for it.
 
-use fgm_core::{MAX_MATERIALS, MaterialField, Mixture, Motion, Point2, Point3};
+use fgm_core::{MAX_MATERIALS, MaterialField, Mixture, Motion, Point2, Point3, Role};
 use fgm_field::Design;
 
-use crate::{choice::Aim, settings::Settings};
+use crate::{choice::Aim, purge::PurgeInto, settings::Settings};
 
 /// The most samples of a bead.
 const MOST: f64 = 1e5;
@@ -11,6 +11,9 @@ const MOST: f64 = 1e5;
 /// The design's mixtures, bead by bead.
 pub(crate) struct Target<'a> {
     material: &'a dyn MaterialField,
+    /// Whether all of the part is aimed at the design, or only what takes the old colour: that has
+    /// no colour of its own to be compared with.
+    all: bool,
     /// Between samples, mm, at most.
     step: f64,
     at: Point2,
@@ -21,10 +24,12 @@ pub(crate) struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// None where the paths' colours are what the deposit is to be.
+    /// None where the paths' colours are what all of the deposit is to be.
     pub(crate) fn of(design: &'a Design, settings: &Settings) -> Option<Self> {
-        (settings.aim() == Aim::Design).then(|| Self {
+        let all = settings.aim() == Aim::Design;
+        (all || settings.purge.into == PurgeInto::Infill).then(|| Self {
             material: design.fractions.as_ref(),
+            all,
             step: settings.contour.cell,
             at: Point2::ZERO,
             points: Vec::new(),
@@ -41,7 +46,8 @@ impl<'a> Target<'a> {
             Motion::Travel { to } => self.at = to,
             Motion::Extrude { to, role, .. } => {
                 let from = std::mem::replace(&mut self.at, to);
-                if role.is_part() && self.sample(from, to, cut).is_none() {
+                let aimed = role == Role::PurgeInfill || (self.all && role.is_part());
+                if aimed && self.sample(from, to, cut).is_none() {
                     self.mixtures.clear();
                 }
             }
@@ -75,7 +81,6 @@ impl<'a> Target<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fgm_core::Role;
 
     #[test]
     fn a_bead_is_to_be_what_the_design_is_along_it() {
@@ -99,6 +104,11 @@ mod tests {
         let mut zipped = settings;
         zipped.palette.zipper = crate::Zipper::Share(0.05);
         assert!(Target::of(&design.design, &zipped).is_none());
+        zipped.purge.into = PurgeInto::Infill;
+        let mut target = Target::of(&design.design, &zipped).unwrap();
+        assert!(target.along(&bead(2.0, Role::Infill), 0.0).is_empty());
+        assert!(!target.along(&bead(2.5, Role::PurgeInfill), 0.0).is_empty());
+        zipped.purge.into = PurgeInto::Tower;
         zipped.compensation.aim = Some(Aim::Design);
         assert!(Target::of(&design.design, &zipped).is_some());
     }

@@ -19,6 +19,7 @@ fn sliced(strategy: Strategy, changes: &str) -> Report {
     let wanted: fgm::Settings = table.try_into().unwrap();
     settings.compensation = wanted.compensation.clone();
     settings.purge = wanted.purge.clone();
+    settings.skins = wanted.skins.clone();
     let mut machine = fgm::gcode::Machine::builtin("generic-mixing").unwrap();
     machine.transition.delay = Some(5.0);
     machine.transition.change = Some(10.0);
@@ -36,7 +37,8 @@ fn a_printer_with_a_transition_is_compensated() {
         (Strategy::Sectioned, Aim::Design, 0.95),
         (Strategy::Against, Aim::Design, 0.75),
     ] {
-        let aimed = format!("[compensation]\naim = \"{aim}\"\n");
+        // On a tower nothing is left to be done for the paths' colours.
+        let aimed = format!("[purge]\nenabled = false\n[compensation]\naim = \"{aim}\"\n");
         let deposit = sliced(strategy, &aimed).deposit.unwrap();
         assert!(deposit.compensated && deposit.aim == aim);
         assert!(deposit.fit.rms < most * deposit.fit.rms_plain, "{strategy}: {deposit:?}");
@@ -57,6 +59,27 @@ fn a_printer_with_a_transition_is_compensated() {
 fn a_printer_without_one_is_not() {
     let (report, _) = slice(&parse(PLATE), "generic-mixing", &settings(Strategy::Against, 4));
     assert_eq!(report.deposit, None);
+}
+
+#[test]
+fn a_tower_takes_the_whole_of_a_change() {
+    let aimed = "[purge]\ntolerance = 0.0\n[compensation]\naim = \"colors\"\nenabled = false";
+    let fit = sliced(Strategy::Sectioned, aimed).deposit.unwrap().fit;
+    assert!(fit.rms < 1e-6, "{fit:?}");
+}
+
+#[test]
+fn infill_that_takes_the_old_colour_is_told_apart() {
+    let deposit = |into: &str| {
+        let skins = "[skins]\ntop = 1\nbottom = 1\n";
+        let aimed = format!("{skins}[purge]\ninto = \"{into}\"\ntolerance = 0.0\n");
+        sliced(Strategy::Sectioned, &(aimed + "[compensation]\naim = \"colors\"")).deposit.unwrap()
+    };
+    let (tower, infill) = (deposit("tower"), deposit("infill"));
+    assert_eq!((tower.hidden_mm3, tower.hidden_rms), (None, None));
+    assert!(infill.fit.rms < 1e-6 && infill.hidden_mm3 > Some(0.0), "{infill:?}");
+    // The old colour, then half way to the new one, where a band on either side is a quarter.
+    assert!(infill.hidden_rms > Some(0.08) && infill.hidden_rms < Some(0.25), "{infill:?}");
 }
 
 #[test]

@@ -280,6 +280,14 @@ fn describe_fidelity(fidelity: &FidelityFigures, text: &mut String) {
             );
         }
     }
+    let seen = &fidelity.deposited_seen;
+    if let Some(worst) = &seen.worst {
+        let _ = writeln!(
+            text,
+            "          without infill {:.4} (mean), {:.4} (rms), {:.4} (95 %), worst {:.4}",
+            seen.mean, seen.rms, seen.percentile_95, worst.error
+        );
+    }
     if fidelity.undefined > 0 {
         let _ = writeln!(
             text,

@@ -6,7 +6,7 @@ use std::{
 };
 
 use fgm::{
-    Aim, DepositReport, Report, Settings, Slicer,
+    Aim, DepositReport, PurgeLayout, PurgeReport, Report, Settings, Slicer,
     design::{self, LoadOptions},
     gcode::Machine,
 };
@@ -268,6 +268,11 @@ fn summary(report: &Report, output: &Path) {
         report.state_changes,
         duration(report.print_time_s)
     );
+    if let Some(purge) = &report.purge {
+        purge_summary(purge).iter().for_each(|line| {
+            let _ = writeln!(err, "  {dash} {line}");
+        });
+    }
     let cooling = &report.cooling;
     if cooling.slowed_layers > 0 {
         let (layers, added) = (cooling.slowed_layers, duration(cooling.added_s));
@@ -276,6 +281,33 @@ fn summary(report: &Report, output: &Path) {
     if let Some(deposit) = &report.deposit {
         let _ = writeln!(err, "  {dash} {}", deposit_summary(deposit));
     }
+}
+
+/// Where the old colour went, and what was saved.
+fn purge_summary(purge: &PurgeReport) -> Vec<String> {
+    let mut lines = Vec::new();
+    let tower = match purge.layout {
+        Some(PurgeLayout::One) => "one tower",
+        Some(PurgeLayout::Spots) => "a spot for each colour",
+        None => "no tower",
+    };
+    if purge.changes > 0 {
+        let into = match purge.infill_mm3 {
+            0.0 => String::new(),
+            volume => format!(", {volume:.1} mm3 into hidden infill"),
+        };
+        let (purged, changes) = (purge.purged, purge.changes);
+        lines.push(format!("{purged} of {changes} changes purged, {tower}{into}"));
+    }
+    let saved = &purge.saved;
+    if saved.total.mm3 > 0.0 {
+        lines.push(format!(
+            "saved {:.2} g of purge: {:.2} g by infill, {:.2} g by the threshold, {:.2} g by the \
+             order of colours",
+            saved.total.g, saved.infill.g, saved.threshold.g, saved.order.g
+        ));
+    }
+    lines
 }
 
 /// What is predicted of the deposit.
@@ -287,11 +319,17 @@ fn deposit_summary(deposit: &DepositReport) -> String {
         Aim::Colors => "the paths' colours",
     };
     let plain = percent(fit.rms_plain);
+    let hidden = match deposit.hidden_rms {
+        Some(rms) => format!("; {:.2} % where infill takes the old colour", percent(rms)),
+        None => String::new(),
+    };
     if deposit.compensated {
         let rms = percent(fit.rms);
-        format!("deposit: {rms:.2} % rms from {from}, {plain:.2} % with the look-ahead alone")
+        format!(
+            "deposit: {rms:.2} % rms from {from}, {plain:.2} % with the look-ahead alone{hidden}"
+        )
     } else {
-        format!("deposit: {plain:.2} % rms from {from} with the look-ahead alone")
+        format!("deposit: {plain:.2} % rms from {from} with the look-ahead alone{hidden}")
     }
 }
 

@@ -248,7 +248,7 @@ impl Speeds {
         match role {
             Role::OuterWall => self.outer_wall,
             Role::InnerWall => self.inner_wall,
-            Role::Infill => self.infill,
+            Role::Infill | Role::PurgeInfill => self.infill,
             Role::SolidInfill => self.solid_infill,
             Role::TopSkin => self.top_skin,
             Role::BottomSkin => self.bottom_skin,

@@ -85,7 +85,7 @@ const fn tag(role: Role) -> &'static str {
     match role {
         Role::OuterWall => "External perimeter",
         Role::InnerWall => "Perimeter",
-        Role::Infill => "Internal infill",
+        Role::Infill | Role::PurgeInfill => "Internal infill",
         Role::SolidInfill | Role::BottomSkin => "Solid infill",
         Role::TopSkin => "Top solid infill",
         Role::Bridge => "Bridge infill",

@@ -1,5 +1,5 @@
 use super::{
-    misfit::{Wanted, misfit},
+    misfit::{Matter, Wanted, misfit, misfit_of},
     track::Told,
 };
 use crate::Transition;
@@ -16,18 +16,29 @@ pub struct Fit {
     pub told: f64,
 }
 
+/// How far the deposit is from what was wanted where the part takes the old colour out of sight.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HiddenFit {
+    /// mm³.
+    pub volume: f64,
+    /// Root of the mean squared error with what was told, for the machine as measured.
+    pub told: f64,
+}
+
 /// Squared errors while they are gathered, and the volume they are over.
 #[derive(Clone, Debug)]
 pub(super) struct Figures {
     sums: Vec<(Transition, f64, f64)>,
     volume: f64,
     measured: f64,
+    /// The sum and the volume of what is hidden.
+    hidden: (f64, f64),
 }
 
 impl Figures {
     pub(super) fn new(corners: &[Transition]) -> Self {
         let sums = corners.iter().map(|t| (*t, 0.0, 0.0)).collect();
-        Self { sums, volume: 0.0, measured: 0.0 }
+        Self { sums, volume: 0.0, measured: 0.0, hidden: (0.0, 0.0) }
     }
 
     /// Goes on to the volume `upto`.
@@ -40,8 +51,18 @@ impl Figures {
         let mut at = self.measured;
         for wanted in wanted {
             let end = wanted.end.min(upto);
-            self.volume += wanted.weight * (end - at).max(0.0);
+            let volume = (end - at).max(0.0);
+            match wanted.matter {
+                Matter::Part => self.volume += volume,
+                Matter::Hidden => self.hidden.1 += volume,
+                Matter::Waste => {}
+            }
             at = at.max(end);
+        }
+        if let Some((transition, ..)) = self.sums.first()
+            && wanted.iter().any(|wanted| wanted.matter == Matter::Hidden)
+        {
+            self.hidden.0 += misfit_of(transition, told, wanted, part, Matter::Hidden);
         }
         self.measured = upto;
     }
@@ -58,6 +79,12 @@ impl Figures {
     /// The squared errors of what was told, as shares of those of the plain lead.
     pub(super) fn shares(&self) -> impl Iterator<Item = f64> + '_ {
         self.sums.iter().map(|(_, plain, told)| if *plain > 0.0 { told / plain } else { 1.0 })
+    }
+
+    /// What is hidden; none where nothing is.
+    pub(super) fn hidden(&self) -> Option<HiddenFit> {
+        let (sum, volume) = self.hidden;
+        (volume > 0.0).then(|| HiddenFit { volume, told: (sum / volume).sqrt() })
     }
 
     /// First for the machine as measured, then for each way it may be off.

@@ -1,6 +1,6 @@
 //! How far a deposit is from what was wanted, exactly.
 
-use fgm_core::{MAX_MATERIALS, Mixture};
+use fgm_core::{MAX_MATERIALS, Mixture, Role};
 
 use super::track::Told;
 use crate::Transition;
@@ -14,11 +14,36 @@ pub(super) struct Wanted {
     pub(super) mixture: Mixture,
     /// Mean error of what is wanted within the stretch from its average.
     pub(super) scatter: f64,
-    /// How much it matters: 0 where nobody sees it.
-    pub(super) weight: f64,
+    pub(super) matter: Matter,
 }
 
-/// The integral over the volume `from..to` of the weighted squared error of the deposit, mm³.
+/// Whether a mixture matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Matter {
+    /// It is to be as wanted.
+    Part,
+    /// The old colour goes there, hidden in the part.
+    Hidden,
+    /// It is no part of the print.
+    Waste,
+}
+
+impl Matter {
+    pub(super) fn of(role: Role) -> Self {
+        match (role.is_part(), role.is_purge()) {
+            (true, false) => Self::Part,
+            (true, true) => Self::Hidden,
+            (false, _) => Self::Waste,
+        }
+    }
+
+    /// What it weighs where commands are chosen.
+    pub(super) fn weight(self) -> f64 {
+        if self == Self::Part { 1.0 } else { 0.0 }
+    }
+}
+
+/// The integral over the volume `from..to` of the squared error of the deposit in the part, mm³.
 ///
 /// The error of a mixture is half the squared distance of the fractions, so that for two materials
 /// it is the square of the fraction's own error and for pure materials swapped it is 1. The
@@ -29,7 +54,18 @@ pub(super) fn misfit(
     transition: &Transition,
     told: &[Told],
     wanted: &[Wanted],
+    part: (f64, f64),
+) -> f64 {
+    misfit_of(transition, told, wanted, part, Matter::Part)
+}
+
+/// As [`misfit`], over the stretches that matter so.
+pub(super) fn misfit_of(
+    transition: &Transition,
+    told: &[Told],
+    wanted: &[Wanted],
     (from, to): (f64, f64),
+    matter: Matter,
 ) -> f64 {
     let mut deposit = Deposit::new(transition, told, from);
     let first = wanted.partition_point(|w| w.end <= from);
@@ -39,10 +75,10 @@ pub(super) fn misfit(
             break;
         }
         let end = wanted.end.min(to);
-        if wanted.weight > 0.0 {
+        if wanted.matter == matter {
             let scatter = wanted.scatter * (end - deposit.at);
             let error = deposit.error(wanted.mixture.fractions(), end);
-            sum += wanted.weight * (error + scatter);
+            sum += error + scatter;
         } else {
             deposit.error(wanted.mixture.fractions(), end);
         }
@@ -158,14 +194,14 @@ mod tests {
         Told { at, mixture, color: Some(ColorId(0)) }
     }
 
-    fn wanted(end: f64, share: f64, weight: f64) -> Wanted {
-        Wanted { end, mixture: told(0.0, share).mixture, scatter: 0.0, weight }
+    fn wanted(end: f64, share: f64, matter: Matter) -> Wanted {
+        Wanted { end, mixture: told(0.0, share).mixture, scatter: 0.0, matter }
     }
 
     #[test]
     fn a_step_with_the_plain_lead_misses_a_twelfth() {
         let first = f64::NEG_INFINITY;
-        let wanted = [wanted(100.0, 0.0, 1.0), wanted(200.0, 1.0, 1.0)];
+        let wanted = [wanted(100.0, 0.0, Matter::Part), wanted(200.0, 1.0, Matter::Part)];
         for (transition, expected) in [
             (Transition { delay: 9.0, length: 18.0 }, 18.0 / 12.0),
             (Transition { delay: 18.0, length: 0.0 }, 0.0),
@@ -187,7 +223,8 @@ mod tests {
     #[test]
     fn stretches_taken_together_keep_their_error() {
         let told = [told(f64::NEG_INFINITY, 0.3)];
-        let apart = [wanted(1.0, 0.1, 1.0), wanted(3.0, 0.5, 1.0), wanted(3.5, 0.9, 1.0)];
+        let apart = [(1.0, 0.1), (3.0, 0.5), (3.5, 0.9)]
+            .map(|(end, share)| wanted(end, share, Matter::Part));
         let mut together = apart[0];
         together.extend(0.0, 3.0, &apart[1].mixture);
         together.extend(0.0, 3.5, &apart[2].mixture);
@@ -199,8 +236,13 @@ mod tests {
     #[test]
     fn what_nobody_sees_does_not_count() {
         let told = [told(f64::NEG_INFINITY, 0.0)];
-        let wanted = [wanted(10.0, 1.0, 0.0), wanted(30.0, 0.5, 2.0)];
-        let found = misfit(&Transition::IDEAL, &told, &wanted, (0.0, 20.0));
-        assert!((found - 10.0 * 2.0 * 0.25).abs() < 1e-12);
+        let wanted = [
+            wanted(10.0, 1.0, Matter::Waste),
+            wanted(30.0, 0.5, Matter::Part),
+            wanted(35.0, 1.0, Matter::Hidden),
+        ];
+        let over = |matter| misfit_of(&Transition::IDEAL, &told, &wanted, (0.0, 40.0), matter);
+        assert!((over(Matter::Part) - 20.0 * 0.25).abs() < 1e-12);
+        assert!((over(Matter::Hidden) - 5.0).abs() < 1e-12);
     }
 }

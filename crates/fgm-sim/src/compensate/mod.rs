@@ -22,10 +22,12 @@ use fgm_core::{ColorId, Mixture, Motion, Role};
 use fgm_gcode::{Machine, MotionQueue, State, Step};
 
 use crate::Transition;
+use figures::Figures;
+use misfit::Matter;
 use planner::Planner;
 use track::Told;
 
-pub use figures::Fit;
+pub use figures::{Fit, HiddenFit};
 pub use preheat::Preheat;
 
 /// The shortest segment where none is given, mm³: a few mm of an ordinary bead.
@@ -73,6 +75,9 @@ pub struct Compensated {
     /// First for the machine as measured, then with its delay and length off by the uncertainty:
     /// both more, both less, delay more and length less, delay less and length more.
     pub fits: Vec<Fit>,
+    /// What purges laid into the part; none where there are none. No command is chosen for it, and
+    /// it is not part of the fits.
+    pub hidden: Option<HiddenFit>,
     /// Commands written.
     pub commands: u64,
 }
@@ -85,8 +90,8 @@ pub struct Compensated {
 /// mixture between two colours or beyond them, each at its exact volume, where need be inside a
 /// bead. Commands are fractions that the firmware can tell apart and last at least the shortest
 /// volume; neither the beads nor their order change. Everything extruded counts, but what is no
-/// part of the print ([`Role::is_part`]), such as a purge tower, may have any mixture: a change is
-/// hidden there where it can be.
+/// part of the print ([`Role::is_part`]) or takes a purge ([`Role::is_purge`]), such as a tower,
+/// may have any mixture: a change is hidden there where it can be.
 ///
 /// Without [`CompensateOptions::enabled`], or with a transition too short to choose anything, the
 /// commands are those of the plain lead.
@@ -185,12 +190,12 @@ impl Compensate {
         if let (Some(planner), Some(target)) =
             (&mut self.planner, self.targets.get(self.color.index()))
         {
-            let weight = f64::from(u8::from(role.is_part()));
+            let matter = Matter::of(role);
             if wanted.is_empty() {
-                planner.want(volume, *target, weight);
+                planner.want(volume, *target, matter);
             }
             let part = volume / wanted.len() as f64;
-            wanted.iter().for_each(|mixture| planner.want_about(part, *mixture, weight));
+            wanted.iter().for_each(|mixture| planner.want_about(part, *mixture, matter));
         }
         self.settle(false, &mut emit)
     }
@@ -205,8 +210,10 @@ impl Compensate {
     ) -> Result<Compensated, E> {
         self.settle(true, &mut emit)?;
         self.queue.release(f64::INFINITY, &mut |motion| emit(motion.into()))?;
-        let fits = self.planner.map(|planner| planner.figures().fits()).unwrap_or_default();
-        Ok(Compensated { fits, commands: self.commands })
+        let figures = self.planner.map(Planner::figures);
+        let fits = figures.as_ref().map(Figures::fits).unwrap_or_default();
+        let hidden = figures.as_ref().and_then(Figures::hidden);
+        Ok(Compensated { fits, hidden, commands: self.commands })
     }
 
     fn boundary<E>(

@@ -1,27 +1,24 @@
 //! What to tell the machine, chosen block by block along the extruded volume.
 
-use std::ops::Range;
+mod choice;
 
-use fgm_core::{ColorId, MAX_MATERIALS, Mixture};
+use fgm_core::{ColorId, Mixture};
 use fgm_gcode::safe_ratios;
 
 use super::{
     CompensateOptions,
     figures::Figures,
-    misfit::{Wanted, misfit},
-    solve::{Case, Problem},
+    misfit::{Matter, Wanted, misfit},
     track::{Told, Track},
-    tune::{self, Tuned},
+    tune,
 };
 use crate::Transition;
+use choice::Choice;
 
 /// Cells that the transition's length is divided into, where the shortest segment lets it.
 const CELLS: f64 = 64.0;
 /// With fewer cells in the transition there is nothing to choose.
 const FEWEST_CELLS: f64 = 4.0;
-/// Lengths of the transition that are settled at a time, and that are looked at beyond.
-const BLOCK: f64 = 12.0;
-const OVERLAP: f64 = 5.0;
 /// Volume that is settled at a time with the plain lead, mm³, at least.
 const PLAIN_BLOCK: f64 = 20.0;
 /// Steps of the solver for a block.
@@ -57,21 +54,6 @@ pub(super) struct Planner {
     settled: f64,
     planned: f64,
     figures: Figures,
-}
-
-/// The grid and the working space of the solver.
-#[derive(Clone, Debug)]
-struct Choice {
-    tuned: Tuned,
-    cell: f64,
-    /// Volumes, mm³.
-    block: f64,
-    overlap: f64,
-    /// In cells.
-    pad: usize,
-    problem: Problem,
-    /// The plan that the solver began with.
-    begun: Vec<f64>,
 }
 
 /// A block whose commands are being chosen.
@@ -123,36 +105,37 @@ impl Planner {
     }
 
     /// So much is extruded, in which this mixture is wanted.
-    pub(super) fn want(&mut self, volume: f64, mixture: Mixture, weight: f64) {
+    pub(super) fn want(&mut self, volume: f64, mixture: Mixture, matter: Matter) {
         if !(volume.is_finite() && volume > 0.0) {
             return;
         }
         self.total += volume;
         match self.wanted.last_mut() {
             Some(last)
-                if last.weight == weight
-                    && (weight == 0.0 || (last.mixture == mixture && last.scatter == 0.0)) =>
+                if last.matter == matter
+                    && (matter == Matter::Waste
+                        || (last.mixture == mixture && last.scatter == 0.0)) =>
             {
                 last.end = self.total;
             }
-            _ => self.wanted.push(Wanted { end: self.total, mixture, scatter: 0.0, weight }),
+            _ => self.wanted.push(Wanted { end: self.total, mixture, scatter: 0.0, matter }),
         }
     }
 
     /// The same for one of many mixtures that change little by little: those along less than half
     /// a cell are taken together.
-    pub(super) fn want_about(&mut self, volume: f64, mixture: Mixture, weight: f64) {
+    pub(super) fn want_about(&mut self, volume: f64, mixture: Mixture, matter: Matter) {
         let grain = 0.5 * self.options.transition.length / CELLS;
         let end = self.total + volume;
         if let [.., before, last] = self.wanted.as_mut_slice()
             && volume.is_finite()
-            && last.weight == weight
+            && last.matter == matter
             && end - before.end <= grain
         {
             last.extend(before.end, end, &mixture);
             self.total = end;
         } else {
-            self.want(volume, mixture, weight);
+            self.want(volume, mixture, matter);
         }
     }
 
@@ -368,121 +351,9 @@ fn within(none: f64, half: f64, all: f64, allowed: f64) -> f64 {
     (-slope + (slope * slope + 4.0 * curve * room).sqrt()) / (2.0 * curve)
 }
 
-/// Begins the free cells with what is best told around each change of the plain lead alone.
-fn respond(problem: &mut Problem, tuned: &Tuned, free: Range<usize>) {
-    let count = problem.count;
-    for c in 0..problem.components {
-        let row = c * count..(c + 1) * count;
-        let (plain, told) = (&problem.plain[row.clone()], &mut problem.told[row]);
-        told[free.clone()].copy_from_slice(&plain[free.clone()]);
-        for i in 1..count {
-            let change = plain[i] - plain[i - 1];
-            if change == 0.0 {
-                continue;
-            }
-            for (j, by) in (i as isize - tuned.command as isize..).zip(&tuned.response) {
-                if usize::try_from(j).is_ok_and(|j| free.contains(&j)) {
-                    told[j as usize] += change * by;
-                }
-            }
-        }
-        told[free.clone()].iter_mut().for_each(|told| *told = told.clamp(0.0, 1.0));
-    }
-}
-
 /// Adds the plain lead's commands over the volume `from..to`.
 fn add_plain(track: &mut Track, plain: &Track, (from, to): (f64, f64)) {
     track.tell(Told { at: from, ..plain.at(from) });
     let later = plain.told().get(plain.index(from) + 1..).unwrap_or_default();
     later.iter().take_while(|t| t.at < to).for_each(|t| track.tell(*t));
-}
-
-impl Choice {
-    fn new(corners: &[Transition], lead: f64, cell: f64) -> Self {
-        let tuned = tune::tune(corners, lead, cell);
-        let length = corners[0].length / cell;
-        let pad = tuned.cases.iter().map(Case::reach).max().unwrap_or(0) + 1;
-        Self {
-            tuned,
-            cell,
-            block: (BLOCK * length).ceil() * cell,
-            overlap: (OVERLAP * length).ceil() * cell,
-            pad,
-            problem: Problem::new((0.0, 1.0), tune::HOLD),
-            begun: Vec::new(),
-        }
-    }
-
-    /// How far beyond the end of a block has to be known, mm³.
-    fn known(&self, corners: &[Transition]) -> f64 {
-        let longest = corners.iter().map(Transition::reach).fold(0.0, f64::max);
-        self.overlap + longest
-    }
-
-    /// Sets up the problem for the block after what is settled.
-    fn fill(&mut self, planner: &Planner, planned: f64) {
-        let components = if planner.materials == 2 { 1 } else { planner.materials };
-        let cell = self.cell;
-        let start = planner.settled - self.pad as f64 * cell;
-        let cells = ((planned - planner.settled) / cell).round() as usize;
-        let free = self.pad..self.pad + cells;
-        let problem = &mut self.problem;
-        problem.resize(free.end + self.pad, components);
-        let count = problem.count;
-        problem.rows = self.pad..count;
-        let grid = (start, cell);
-        planner.plain.average(grid, count, count, components, &mut problem.plain);
-        problem.told.clone_from(&problem.plain);
-        planner.told.average(grid, free.end, count, components, &mut problem.told);
-        self.begun.clone_from(&problem.told);
-        respond(problem, &self.tuned, free.clone());
-        problem.free = free;
-        Self::aim(problem, planner, grid);
-    }
-
-    /// What is wanted in each cell, and how much it matters.
-    fn aim(problem: &mut Problem, planner: &Planner, (start, cell): (f64, f64)) {
-        let count = problem.count;
-        let mut at = start.max(0.0);
-        let first = planner.wanted.partition_point(|w| w.end <= at);
-        for wanted in &planner.wanted[first..] {
-            while at < wanted.end {
-                let i = ((at - start) / cell + 1e-9) as usize;
-                if i >= count {
-                    break;
-                }
-                let until = wanted.end.min(start + (i + 1) as f64 * cell).max(at.next_up());
-                let share = wanted.weight * (until - at) / cell;
-                problem.weight[i] += share;
-                for (c, f) in wanted.mixture.fractions().iter().enumerate().take(problem.components)
-                {
-                    problem.target[c * count + i] += share * f;
-                }
-                at = until;
-            }
-        }
-        for i in 0..count {
-            let weight = problem.weight[i];
-            for c in 0..problem.components {
-                if weight > 0.0 {
-                    problem.target[c * count + i] /= weight;
-                }
-            }
-            problem.weight[i] = weight.min(1.0);
-        }
-    }
-
-    /// The fractions told in a cell of the block, blended with the plan before.
-    fn cell_values(&self, i: usize, share: f64, materials: usize) -> [f64; MAX_MATERIALS] {
-        let problem = &self.problem;
-        let mut values = [0.0; MAX_MATERIALS];
-        for (c, value) in values.iter_mut().enumerate().take(problem.components) {
-            let at = c * problem.count + self.pad + i;
-            *value = self.begun[at] + share * (problem.told[at] - self.begun[at]);
-        }
-        if materials == 2 {
-            values[1] = 1.0 - values[0];
-        }
-        values
-    }
 }

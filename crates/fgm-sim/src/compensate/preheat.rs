@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use fgm_core::{ColorId, Motion, Point2, Role, bead};
+use fgm_core::{ColorId, Motion, Point2, bead};
 use fgm_gcode::{Machine, MachineKind, MotionQueue, Pace, State, Step};
 
 use crate::Thermal;
@@ -240,7 +240,7 @@ impl Preheat {
             }
             Motion::Travel { to } => (to, self.machine.speed.travel),
             Motion::Extrude { to, width, role } => {
-                self.purged = role == Role::PurgeTower;
+                self.purged = role.is_purge();
                 let fed = bead::area(width, self.height) * self.melt.flow;
                 let state = self.states.first();
                 let usual = self.machine.bead_speed(role, fed, state, self.layers <= 1);

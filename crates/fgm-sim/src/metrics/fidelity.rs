@@ -32,6 +32,7 @@ pub struct Fidelity<'a> {
     wanted: Vec<f64>,
     commanded: Spread,
     deposited: Spread,
+    deposited_seen: Spread,
     commanded_colors: Spread,
     deposited_colors: Spread,
     undefined: u64,
@@ -41,6 +42,7 @@ pub struct Fidelity<'a> {
 struct Sample {
     line: u64,
     layer: u32,
+    seen: bool,
     volume: f64,
     commanded: Mixture,
     deposited: Mixture,
@@ -53,6 +55,8 @@ pub struct FidelityFigures {
     pub commanded: SpreadFigures,
     /// Error of the composition as laid down.
     pub deposited: SpreadFigures,
+    /// The same without infill, which walls and skins hide; all 0 where there is nothing else.
+    pub deposited_seen: SpreadFigures,
     /// Difference of colour (CIEDE2000) as commanded.
     pub commanded_delta_e: SpreadFigures,
     /// Difference of colour (CIEDE2000) as laid down.
@@ -73,6 +77,7 @@ impl<'a> Fidelity<'a> {
             wanted: Vec::new(),
             commanded: Spread::new(1.0),
             deposited: Spread::new(1.0),
+            deposited_seen: Spread::new(1.0),
             commanded_colors: Spread::new(MOST_DIFFERENCE),
             deposited_colors: Spread::new(MOST_DIFFERENCE),
             undefined: 0,
@@ -85,6 +90,7 @@ impl<'a> Fidelity<'a> {
         let Some(layer) = piece.layer.filter(|_| piece.is_part()) else { return };
         let count = (piece.length() / self.spacing).ceil().clamp(1.0, 1e6) as u32;
         let volume = piece.volume / f64::from(count);
+        let seen = piece.role.is_none_or(|role| !role.is_hidden());
         let shift = self.reference.offset + Point3::Z * (0.5 * piece.height);
         for i in 0..count {
             let share = (f64::from(i) + 0.5) / f64::from(count);
@@ -92,6 +98,7 @@ impl<'a> Fidelity<'a> {
             self.samples.push(Sample {
                 line: piece.line,
                 layer,
+                seen,
                 volume,
                 commanded: piece.commanded,
                 deposited: piece.mixture_at(share),
@@ -128,6 +135,10 @@ impl<'a> Fidelity<'a> {
                 let difference = self.shades.difference(&wanted, mixture);
                 colors.add(difference, sample.volume, sample.line, sample.layer, *at);
             }
+            if sample.seen {
+                let error = wanted.distance(&sample.deposited);
+                self.deposited_seen.add(error, sample.volume, sample.line, sample.layer, *at);
+            }
         }
         self.samples.clear();
         self.points.clear();
@@ -139,6 +150,7 @@ impl<'a> Fidelity<'a> {
         FidelityFigures {
             commanded: self.commanded.figures(),
             deposited: self.deposited.figures(),
+            deposited_seen: self.deposited_seen.figures(),
             commanded_delta_e: self.commanded_colors.figures(),
             deposited_delta_e: self.deposited_colors.figures(),
             undefined: self.undefined,
