@@ -106,16 +106,17 @@ impl<'a, L> Cutter<'a, L> {
         piece::split(points, 0, points.len() - 1, 0, pieces);
         found.contacts.clear();
         found.along.clear();
+        let index = topology.index();
+        let tree = &index.tree;
         for piece in &*pieces {
-            let tree = &topology.tree;
             if piece.segments().len() == 1 {
                 let i = piece.first as usize;
                 tree.query(&tree.probe(points[i], points[i + 1]), |other| {
-                    found.meet_all(points, i, topology, &topology.pieces[other as usize]);
+                    found.meet_all(points, i, topology, &index.pieces[other as usize]);
                 });
             } else {
                 tree.query(&tree.window(&piece.bounds(points)), |other| {
-                    let other = &topology.pieces[other as usize];
+                    let other = &index.pieces[other as usize];
                     for_pairs((points, piece), (&topology.points, other), |i, j| {
                         found.meet(points, i, topology, j, other.owner);
                     });

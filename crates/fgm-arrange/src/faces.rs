@@ -45,19 +45,27 @@ fn cross(a: Point2, b: Point2) -> i128 {
         - i128::from(a.y as i64) * i128::from(b.x as i64)
 }
 
-/// Sum of the cross products of the successive points of a piece, and so of the triangles that
-/// they make with the origin: exact. Around a closed line they are twice its area.
+/// Twice the area between a piece and its chord: exact.
 fn twice_area_of_piece(line: &[Point2]) -> i128 {
     let (first, last) = (line[0], line[line.len() - 1]);
     let reach = (last - first).abs().max_element();
     // A piece is monotone: its ends bound it. Sums of up to 2^4 products below 2 * 2^48 are exact.
-    let near = if reach < (1u64 << 24) as f64 {
+    if reach < (1u64 << 24) as f64 {
         let sum: f64 = line.windows(2).map(|w| (w[0] - first).perp_dot(w[1] - w[0])).sum();
         sum as i128
     } else {
         line.windows(2).map(|w| cross(w[0] - first, w[1] - first)).sum()
-    };
-    near + cross(first, last - first)
+    }
+}
+
+/// How an edge differs from the chord between its ends.
+#[derive(Clone, Copy, Debug)]
+struct Bend {
+    edge: u32,
+    /// Twice the area between them, square steps; positive where the edge bends to the right.
+    twice_area: i128,
+    /// The least of the edge's points.
+    least: Point2,
 }
 
 impl Topology {
@@ -65,66 +73,108 @@ impl Topology {
     /// them.
     pub(crate) fn find_faces(&mut self) {
         let (mut cycles, mut cycle_of) = self.walk();
-        self.bridge.extend(cycle_of.chunks_exact(2).map(|sides| sides[0] == sides[1]));
+        self.bridge = cycle_of.chunks_exact(2).map(|sides| sides[0] == sides[1]).collect();
         self.name_faces(&mut cycles);
         self.components = cycles.iter().filter(|c| c.twice_area <= 0).count();
         if self.components > 1 {
             self.nest(&mut cycles, &cycle_of);
         }
+        self.record(&cycles, &cycle_of);
         for cycle in &mut cycle_of {
             *cycle = cycles[*cycle as usize].face;
         }
         self.face = cycle_of;
-        self.record(&cycles);
     }
 
+    /// The cycles, and for each half-edge its own.
     fn walk(&self) -> (Vec<Cycle>, Vec<u32>) {
+        let bends = self.bends();
         let mut cycle_of = vec![NONE; self.next.len()];
-        let mut cycles = Vec::new();
-        for half in 0..self.next.len() as u32 {
-            if cycle_of[half as usize] != NONE {
+        // Euler's formula for one component.
+        let mut cycles =
+            Vec::with_capacity((2 + self.ends.len()).saturating_sub(self.vertices.len()));
+        for first in 0..self.next.len() as u32 {
+            if cycle_of[first as usize] != NONE {
                 continue;
             }
-            for h in self.cycle(half) {
-                cycle_of[h as usize] = cycles.len() as u32;
-            }
-            let least = self.vertices[self.origin(half) as usize];
-            cycles.push(Cycle { half, twice_area: 0, face: NONE, least });
-        }
-        let mut pieces = self.pieces.iter().peekable();
-        for edge in 0..self.ends.len() {
-            let start = self.points[self.edge_starts[edge] as usize];
-            let (mut area, mut least) = (0, start);
-            while let Some(piece) = pieces.next_if(|piece| piece.owner as usize == edge) {
-                let line = &self.points[piece.first as usize..=piece.last as usize];
-                area += twice_area_of_piece(line);
-                // Not at an end of the piece where that begins or ends upright.
-                if line[0].x.min(line[line.len() - 1].x) <= least.x {
-                    least = line.iter().copied().fold(least, lesser);
+            let start = self.vertices[self.origin(first) as usize];
+            let mut cycle = Cycle { half: first, twice_area: 0, face: NONE, least: start };
+            let (mut half, mut at) = (first, start);
+            while cycle_of[half as usize] == NONE {
+                cycle_of[half as usize] = cycles.len() as u32;
+                let to = self.vertices[self.origin(half ^ 1) as usize];
+                cycle.twice_area += cross(at - start, to - start);
+                cycle.least = lesser(cycle.least, to);
+                if let Some(bend) = self.bend(&bends, half / 2) {
+                    let back = half & 1 == 1;
+                    cycle.twice_area += if back { -bend.twice_area } else { bend.twice_area };
+                    cycle.least = lesser(cycle.least, bend.least);
                 }
+                at = to;
+                half = self.next[half as usize];
             }
-            for (half, area) in [(2 * edge, area), (2 * edge + 1, -area)] {
-                let cycle = &mut cycles[cycle_of[half] as usize];
-                cycle.twice_area += area;
-                cycle.least = lesser(cycle.least, least);
-            }
+            cycles.push(cycle);
         }
         (cycles, cycle_of)
+    }
+
+    /// The edges that are not straight, in order.
+    fn bends(&self) -> Vec<Bend> {
+        if self.points.len() == 2 * self.ends.len() {
+            return Vec::new();
+        }
+        let bent = (0..self.ends.len() as u32).filter(|&edge| self.line(edge as usize).len() > 2);
+        let mut own = Vec::new();
+        let mut pieces = match self.made_index() {
+            Some(index) => index.pieces.iter(),
+            None => {
+                bent.clone().for_each(|edge| self.split(edge, &mut own));
+                own.iter()
+            }
+        }
+        .peekable();
+        let bend = |edge: u32| {
+            let start = self.line(edge as usize)[0];
+            let mut bend = Bend { edge, twice_area: 0, least: start };
+            while pieces.next_if(|piece| piece.owner < edge).is_some() {}
+            while let Some(piece) = pieces.next_if(|piece| piece.owner == edge) {
+                let line = &self.points[piece.first as usize..=piece.last as usize];
+                let (from, to) = (line[0], line[line.len() - 1]);
+                bend.twice_area += twice_area_of_piece(line) + cross(from - start, to - start);
+                // Not at an end of the piece where that begins or ends upright.
+                if from.x.min(to.x) <= bend.least.x {
+                    bend.least = line.iter().copied().fold(bend.least, lesser);
+                }
+            }
+            bend
+        };
+        bent.map(bend).collect()
+    }
+
+    fn bend<'a>(&self, bends: &'a [Bend], edge: u32) -> Option<&'a Bend> {
+        if bends.is_empty() || self.line(edge as usize).len() == 2 {
+            return None;
+        }
+        bends.get(bends.partition_point(|bend| bend.edge < edge))
     }
 
     /// Numbers the bounded faces by the least points of their outer borders, and by the angle at
     /// which the border leaves it: by place alone, so that labels and the number of vertices do
     /// not matter.
     fn name_faces(&self, cycles: &mut [Cycle]) {
-        let mut order: Vec<_> = (0..cycles.len()).filter(|&c| cycles[c].twice_area > 0).collect();
-        order.sort_unstable_by(|&a, &b| {
-            let (a, b) = (&cycles[a], &cycles[b]);
-            by_place(a.least, b.least).then_with(|| {
-                by_angle(self.leaving(a.half, a.least), self.leaving(b.half, b.least))
-            })
-        });
+        let bounded = |&c: &u32| cycles[c as usize].twice_area > 0;
+        let mut order: Vec<_> = (0..cycles.len() as u32).filter(bounded).collect();
+        let least = |c: u32| cycles[c as usize].least;
+        // They are found by the places of their vertices, and mostly those are their least points.
+        if !order.is_sorted_by(|&a, &b| by_place(least(a), least(b)) != Ordering::Greater) {
+            order.sort_unstable_by(|&a, &b| by_place(least(a), least(b)));
+        }
+        for group in order.chunk_by_mut(|&a, &b| least(a) == least(b)).filter(|g| g.len() > 1) {
+            let leaving = |c: u32| self.leaving(cycles[c as usize].half, least(c));
+            group.sort_unstable_by(|&a, &b| by_angle(leaving(a), leaving(b)));
+        }
         for (id, &c) in order.iter().enumerate() {
-            cycles[c].face = id as u32;
+            cycles[c as usize].face = id as u32;
         }
     }
 
@@ -167,16 +217,15 @@ impl Topology {
         }
     }
 
-    fn record(&mut self, cycles: &[Cycle]) {
+    fn record(&mut self, cycles: &[Cycle], cycle_of: &[u32]) {
         let mut holes: Vec<_> = Vec::new();
         let bounded = cycles.iter().filter(|c| c.twice_area > 0).count();
         let none = FaceRecord { outer: NONE, holes_start: 0, holes_end: 0, area: 0.0 };
         self.faces = vec![none; bounded];
-        let mut areas = vec![0; bounded];
         for cycle in cycles {
             if cycle.twice_area > 0 {
-                self.faces[cycle.face as usize].outer = cycle.half;
-                areas[cycle.face as usize] = cycle.twice_area;
+                let face = &mut self.faces[cycle.face as usize];
+                (face.outer, face.area) = (cycle.half, cycle.twice_area as f64 * 0.5);
             } else if cycle.face == NONE {
                 self.outlines.push(cycle.half);
             } else {
@@ -184,16 +233,14 @@ impl Topology {
             }
         }
         holes.sort_unstable();
-        let mut at = 0;
-        for (id, face) in self.faces.iter_mut().enumerate() {
-            face.holes_start = at as u32;
-            while let Some(&(_, half, area)) = holes.get(at).filter(|hole| hole.0 == id as u32) {
-                self.holes.push(half);
-                areas[id] += area;
-                at += 1;
-            }
-            face.holes_end = at as u32;
-            face.area = areas[id] as f64 * 0.5;
+        for group in holes.chunk_by(|a, b| a.0 == b.0) {
+            let face = &mut self.faces[group[0].0 as usize];
+            let outer = &cycles[cycle_of[face.outer as usize] as usize];
+            let twice = outer.twice_area + group.iter().map(|hole| hole.2).sum::<i128>();
+            face.area = twice as f64 * 0.5;
+            face.holes_start = self.holes.len() as u32;
+            self.holes.extend(group.iter().map(|hole| hole.1));
+            face.holes_end = self.holes.len() as u32;
         }
     }
 }

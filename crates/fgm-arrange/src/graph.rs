@@ -1,8 +1,6 @@
 use crate::memory;
 use crate::noder::{Arc, Noder};
-use crate::predicate::by_angle;
-use fgm_core::Point2;
-use std::cmp::Ordering;
+use crate::rays::Nodes;
 
 /// None.
 const NONE: u32 = u32::MAX;
@@ -30,16 +28,6 @@ pub(crate) struct Graph {
     next: Vec<u32>,
     /// For each half-arc its face's cycle.
     cycle: Vec<u32>,
-    /// The half-arcs of a node and the directions in which they leave it.
-    rays: Vec<(Point2, u32)>,
-}
-
-/// The direction in which a half-arc leaves its node.
-fn direction(points: &[Point2], arcs: &[Arc], half: u32) -> Point2 {
-    let arc = &arcs[half as usize / 2];
-    let (at, next) =
-        if half & 1 == 0 { (arc.first, arc.first + 1) } else { (arc.last, arc.last - 1) };
-    points[next as usize] - points[at as usize]
 }
 
 /// The node that a half-arc leaves.
@@ -108,35 +96,7 @@ impl Graph {
             self.around[(self.starts[node] + self.degree[node]) as usize] = half;
             self.degree[node] += 1;
         }
-        self.repeated.clear();
-        for node in 0..nodes {
-            self.sort_node(noder, node);
-        }
-    }
-
-    /// Puts a node's half-arcs in order. Straight ones in one direction to one other node are one;
-    /// the first stands for all.
-    fn sort_node(&mut self, noder: &Noder, node: usize) {
-        let (start, arcs) = (self.starts[node] as usize, &noder.arcs[..]);
-        let around = &mut self.around[start..start + self.degree[node] as usize];
-        self.rays.clear();
-        self.rays.extend(around.iter().map(|&half| (direction(&noder.points, arcs, half), half)));
-        self.rays.sort_unstable_by(|a, b| by_angle(a.0, b.0).then(a.1.cmp(&b.1)));
-        let mut kept = 0;
-        let mut before: Option<(Point2, u32)> = None;
-        for &(direction, half) in &self.rays {
-            let same = |before: &(Point2, u32)| {
-                by_angle(before.0, direction) == Ordering::Equal && same_ends(arcs, before.1, half)
-            };
-            if let Some((_, first)) = before.filter(same) {
-                self.repeated.push((half / 2, first / 2));
-            } else {
-                before = Some((direction, half));
-                around[kept] = half;
-                kept += 1;
-            }
-        }
-        self.degree[node] = kept as u32;
+        self.repeated = Nodes::new(noder, &self.starts).sort(&mut self.around, &mut self.degree);
     }
 
     /// Replaces the arcs' chains by labels, and makes lists for those that stand for several.
@@ -223,12 +183,4 @@ impl Graph {
         let same = mine.len() == next.len() && mine.iter().all(|&l| next.contains(&(l ^ flip)));
         same.then_some(onward)
     }
-}
-
-/// Whether two half-arcs that leave one node in one direction are the same line: straight, to one
-/// other node.
-fn same_ends(arcs: &[Arc], a: u32, b: u32) -> bool {
-    arcs[a as usize / 2].is_straight()
-        && arcs[b as usize / 2].is_straight()
-        && origin(arcs, a ^ 1) == origin(arcs, b ^ 1)
 }

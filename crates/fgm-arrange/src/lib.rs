@@ -53,7 +53,9 @@
 //! 3. Crossings are snap-rounded: lines are led through the centres of the lattice's *hot pixels*,
 //!    but only those lines that must move. What needs no rounding does not change, so arranging
 //!    the result again changes nothing.
-//! 4. Stretches with nothing on them stay whole polylines: the graph has a vertex where lines meet,
+//! 4. Arcs between nodes are kept in the order of their places, so that what is near by in the plane
+//!    is near by in memory. Large inputs are worked on by several threads, with the same result.
+//! 5. Stretches with nothing on them stay whole polylines: the graph has a vertex where lines meet,
 //!    not at every point. Its cycles are the faces' borders; components inside faces become holes.
 //!
 //! # Numbers
@@ -80,9 +82,11 @@ mod locate;
 mod memory;
 mod noder;
 mod numbering;
+mod parallel;
 mod piece;
 mod pixel;
 mod predicate;
+mod rays;
 mod rings;
 mod slots;
 mod snap;

@@ -1,5 +1,5 @@
 use crate::predicate::{in_box, orient, orient_any};
-use crate::topology::Topology;
+use crate::topology::{Index, Topology};
 use crate::{EdgeId, FaceId, VertexId};
 use fgm_core::{Bounds2, Point2};
 
@@ -52,8 +52,9 @@ impl Topology {
     /// above. Where several meet below, the one just right of it; edges through `p` do not count.
     pub(crate) fn below(&self, p: Point2, counts: impl Fn(u32) -> bool) -> Option<u32> {
         let mut best: Option<Floor> = None;
-        self.tree.query_down(p, |piece| {
-            let piece = &self.pieces[piece as usize];
+        let Index { pieces, tree } = self.index();
+        tree.query_down(p, |piece| {
+            let piece = &pieces[piece as usize];
             if counts(piece.owner) {
                 for i in piece.segments() {
                     let (a, b) = (self.points[i], self.points[i + 1]);
@@ -77,8 +78,9 @@ impl Topology {
     /// The edge through `p`, and the segment of it, as the index of its first point.
     pub(crate) fn through(&self, p: Point2) -> Option<(u32, usize)> {
         let mut found = None;
-        self.tree.query(&self.tree.window(&Bounds2::new(p, p)), |piece| {
-            let piece = &self.pieces[piece as usize];
+        let Index { pieces, tree } = self.index();
+        tree.query(&tree.window(&Bounds2::new(p, p)), |piece| {
+            let piece = &pieces[piece as usize];
             if found.is_some() || !piece.bounds(&self.points).contains(p) {
                 return;
             }

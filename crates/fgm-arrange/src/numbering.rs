@@ -29,8 +29,15 @@ impl<'a> Numbering<'a> {
 
     /// Writes vertices, edges, points and labels.
     pub(crate) fn run(mut self, out: &mut Topology) {
-        let (graph, nodes) = (self.graph, self.noder.nodes());
-        out.points.reserve(self.noder.points.len());
+        let (graph, nodes, arcs) = (self.graph, self.noder.nodes(), self.noder.arcs.len());
+        out.vertices.reserve(nodes.len());
+        out.vertex_starts.reserve(nodes.len() + 1);
+        out.around.reserve(2 * arcs);
+        out.ends.reserve(arcs);
+        out.edge_starts.reserve(arcs + 1);
+        out.points.reserve(self.noder.slots.points.len() + 2 * arcs);
+        out.label_starts.reserve(arcs + 1);
+        out.labels.reserve(arcs);
         // Nodes where something happens are vertices.
         for (node, &place) in nodes.iter().enumerate() {
             let around = graph.around(node);
@@ -70,7 +77,7 @@ impl<'a> Numbering<'a> {
     /// Writes the edge that begins with a half-arc, up to the next vertex or all the way round;
     /// returns its last half-arc.
     fn edge(&mut self, first: u32, out: &mut Topology) -> u32 {
-        let (arcs, points) = (&self.noder.arcs[..], &self.noder.points[..]);
+        let (arcs, nodes) = (&self.noder.arcs[..], self.noder.nodes());
         out.edge_starts.push(out.points.len() as u32);
         let labels = out.labels.len();
         out.label_starts.push(labels as u32);
@@ -83,18 +90,19 @@ impl<'a> Numbering<'a> {
             let arc = &arcs[half as usize / 2];
             self.half_edge[half as usize] = name;
             self.half_edge[half as usize ^ 1] = name + 1;
-            // The last point is the next arc's first.
+            out.points.push(nodes[origin(arcs, half) as usize]);
+            let between = arc.between(&self.noder.slots.points);
             if half & 1 == 0 {
-                out.points.extend_from_slice(&points[arc.first as usize..arc.last as usize]);
+                out.points.extend_from_slice(between);
             } else {
-                out.points.extend(points[arc.first as usize + 1..=arc.last as usize].iter().rev());
+                out.points.extend(between.iter().rev());
             }
             let end = origin(arcs, half ^ 1);
             let next = if self.vertex[end as usize] == NONE { self.onward(half) } else { None };
             match next.filter(|&next| next != first) {
                 Some(next) => half = next,
                 None => {
-                    out.points.push(self.noder.nodes()[end as usize]);
+                    out.points.push(nodes[end as usize]);
                     return half;
                 }
             }
@@ -144,7 +152,9 @@ impl<'a> Numbering<'a> {
             // Any name will do until the ring has its own.
             self.half_edge[at as usize] = 0;
             self.half_edge[at as usize ^ 1] = 1;
-            for &p in &self.noder.points[arc.first as usize..=arc.last as usize] {
+            // The end is the next arc's start.
+            let start = self.noder.nodes()[origin(&self.noder.arcs, at) as usize];
+            for &p in arc.between(&self.noder.slots.points).iter().chain([&start]) {
                 if by_place(p, least) == Ordering::Less {
                     least = p;
                 }

@@ -1,6 +1,6 @@
 use crate::contact::Contacts;
-use crate::memory;
 use crate::slots::Slots;
+use crate::{memory, parallel};
 use fgm_core::Point2;
 
 /// No hot pixel.
@@ -13,6 +13,8 @@ pub(crate) struct Pixels {
     pub(crate) hot: Vec<Point2>,
     /// For each slot its hot pixel, or [`NONE`] for a point that nothing else touches.
     pub(crate) of_slot: Vec<u32>,
+    /// The slots that have one, in order.
+    pub(crate) touched: Vec<u32>,
     /// For each crossing its hot pixel.
     pub(crate) of_crossing: Vec<u32>,
     /// The hot pixels that hold a crossing.
@@ -61,13 +63,14 @@ impl Pixels {
         self.places.extend(passes.iter().map(|pass| slot(pass.slot)));
         self.places
             .extend(crossings.iter().zip(count..).map(|(c, source)| Place::new(c.at, source)));
-        self.places.sort_unstable();
+        parallel::sort(&mut self.places);
         self.hot.clear();
         self.of_slot.clear();
         self.of_slot.resize(slots.points.len(), NONE);
         self.of_crossing.clear();
         self.of_crossing.resize(crossings.len(), NONE);
         self.crossed.clear();
+        self.touched.clear();
         for place in &self.places {
             let at = place.at();
             if self.hot.last() != Some(&at) {
@@ -76,6 +79,7 @@ impl Pixels {
             let pixel = self.hot.len() as u32 - 1;
             if place.source() < count {
                 self.of_slot[place.source() as usize] = pixel;
+                self.touched.push(place.source());
             } else {
                 self.of_crossing[(place.source() - count) as usize] = pixel;
                 if self.crossed.last() != Some(&pixel) {
@@ -83,6 +87,8 @@ impl Pixels {
                 }
             }
         }
+        self.touched.sort_unstable();
+        self.touched.dedup();
         memory::rest(&mut self.places);
     }
 
@@ -109,6 +115,8 @@ impl Pixels {
             let older = self.hot.partition_point(|&at| Place::new(at, 0) < *place);
             self.of_slot[place.source() as usize] = (older + before) as u32;
         }
+        self.touched.extend_from_slice(slots);
+        self.touched.sort_unstable();
         self.hot = hot;
         renamed(&new_names);
     }

@@ -28,7 +28,6 @@ pub(crate) struct Snap {
     pub(crate) cuts: Vec<Cut>,
     bent: Vec<bool>,
     active: Vec<bool>,
-    strips: Strips,
 }
 
 /// A segment led through a hot pixel's centre, in one number that sorts by segment and by place
@@ -83,26 +82,25 @@ impl Snap {
     ) -> Result<(), ArrangeError> {
         too_many("points and crossings", slots.points.len() + contacts.crossings.len())?;
         self.pixels.find(slots, contacts);
-        self.cuts.clear();
-        self.cuts.reserve(contacts.passes.len() + 2 * contacts.crossings.len());
-        for pass in &contacts.passes {
+        let mut cuts = std::mem::take(&mut self.cuts);
+        cuts.clear();
+        cuts.extend(contacts.passes.iter().map(|pass| {
             let pixel = self.pixels.of_slot[pass.slot as usize];
-            self.cut(&slots.points, pass.segment, pixel);
-        }
+            self.cut(&slots.points, pass.segment, pixel)
+        }));
+        let mut parts = vec![cuts];
         if self.bend(slots, contacts) {
-            self.cut_at_crossings(slots, tree);
-            self.spread();
-            let bent = &self.bent;
-            self.cuts.retain(|cut| cut.exact() || bent[cut.segment() as usize]);
+            self.cut_at_crossings(slots, tree, &mut parts);
         } else {
-            self.cuts.retain(|cut| cut.exact());
             for (crossing, &pixel) in contacts.crossings.iter().zip(&self.pixels.of_crossing) {
-                for segment in [crossing.a, crossing.b] {
-                    self.cuts.push(Cut::new(&slots.points, segment, crossing.at, pixel, true));
-                }
+                let cut = |segment| Cut::new(&slots.points, segment, crossing.at, pixel, true);
+                parts[0].extend([crossing.a, crossing.b].map(cut));
             }
         }
-        self.cuts.sort_unstable();
+        self.cuts = sorted(parts, slots.points.len());
+        self.spread();
+        let bent = &self.bent;
+        self.cuts.retain(|cut| cut.exact() || bent[cut.segment() as usize]);
         self.cuts.dedup();
         self.unfold(&slots.points);
         self.pixels.rest();
@@ -113,6 +111,7 @@ impl Snap {
     pub(crate) fn rest(&mut self) {
         memory::rest(&mut self.cuts);
         memory::rest(&mut self.pixels.of_slot);
+        memory::rest(&mut self.pixels.touched);
         memory::rest(&mut self.bent);
         memory::rest(&mut self.active);
     }
@@ -135,9 +134,8 @@ impl Snap {
         });
     }
 
-    fn cut(&mut self, points: &[Point2], segment: u32, pixel: u32) {
-        let at = self.pixels.hot[pixel as usize];
-        self.cuts.push(Cut::at_pixel(points, segment, at, pixel));
+    fn cut(&self, points: &[Point2], segment: u32, pixel: u32) -> Cut {
+        Cut::at_pixel(points, segment, self.pixels.hot[pixel as usize], pixel)
     }
 
     /// Marks the segments with a crossing off the lattice; whether there are any.
@@ -160,32 +158,33 @@ impl Snap {
 
     /// Finds every segment that passes through the pixel of a crossing. The smaller of the two
     /// sets is looked up in the index of the larger.
-    fn cut_at_crossings(&mut self, slots: &Slots, tree: &BoxTree) {
+    fn cut_at_crossings(&self, slots: &Slots, tree: &BoxTree, parts: &mut Vec<Vec<Cut>>) {
         let points = &slots.points[..];
-        if self.pixels.crossed.len() <= 4 * tree.len() {
-            for k in 0..self.pixels.crossed.len() {
-                let pixel = self.pixels.crossed[k];
-                let at = self.pixels.hot[pixel as usize];
-                let window = Bounds2::new(at, at);
-                tree.query(&tree.window(&window), |piece| {
-                    for s in slots.pieces[piece as usize].clip(points, &window) {
-                        if passes(points[s], points[s + 1], at) {
-                            self.cut(points, s as u32, pixel);
-                        }
-                    }
-                });
-            }
+        let Pixels { hot, crossed, .. } = &self.pixels;
+        if crossed.len() > 4 * tree.len() {
+            let strips = Strips::new((points, &slots.pieces), (hot, crossed));
+            parts.extend(strips.search(|segment, pixel| self.cut(points, segment, pixel)));
             return;
         }
-        let Self { strips, pixels, cuts, .. } = self;
-        let sets = ((points, &slots.pieces[..]), (&pixels.hot[..], &pixels.crossed[..]));
-        strips.search(sets.0, sets.1, |segment, pixel| {
-            cuts.push(Cut::at_pixel(points, segment, pixels.hot[pixel as usize], pixel));
-        });
+        for &pixel in crossed {
+            let at = hot[pixel as usize];
+            let window = Bounds2::new(at, at);
+            tree.query(&tree.window(&window), |piece| {
+                for s in slots.pieces[piece as usize].clip(points, &window) {
+                    if passes(points[s], points[s + 1], at) {
+                        parts[0].push(self.cut(points, s as u32, pixel));
+                    }
+                }
+            });
+        }
     }
 
     /// Bends what passes near a bent segment's pixels, until nothing changes.
     fn spread(&mut self) {
+        let is_straight = |cut: &Cut| !cut.exact() && !self.bent[cut.segment() as usize];
+        if !self.cuts.iter().any(is_straight) {
+            return;
+        }
         self.active.clear();
         self.active.resize(self.pixels.hot.len(), false);
         for _ in 0..ROUNDS {
@@ -210,4 +209,37 @@ impl Snap {
         }
         self.bent.fill(true);
     }
+}
+
+/// All cuts in order. Where they are many for each of `segments`, they are dealt out to the segments
+/// first: they come almost in order along them.
+fn sorted(parts: Vec<Vec<Cut>>, segments: usize) -> Vec<Cut> {
+    let count: usize = parts.iter().map(Vec::len).sum();
+    if count < 8 * segments {
+        let mut parts = parts.into_iter();
+        let mut cuts = parts.next().unwrap_or_default();
+        cuts.extend(parts.flatten());
+        cuts.sort_unstable();
+        return cuts;
+    }
+    let mut starts = vec![0; segments];
+    for cut in parts.iter().flatten() {
+        starts[cut.segment() as usize] += 1;
+    }
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += std::mem::replace(start, sum);
+    }
+    let mut cuts = vec![Cut(0); count];
+    for &cut in parts.iter().flatten() {
+        let at = &mut starts[cut.segment() as usize];
+        cuts[*at] = cut;
+        *at += 1;
+    }
+    let mut start = 0;
+    for end in starts {
+        cuts[start..end].sort_unstable();
+        start = end;
+    }
+    cuts
 }

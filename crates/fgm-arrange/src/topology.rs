@@ -5,6 +5,7 @@ use crate::numbering::Numbering;
 use crate::piece::{self, Piece};
 use crate::tree::BoxTree;
 use fgm_core::Point2;
+use std::sync::OnceLock;
 
 /// No such thing; as a face, the unbounded one.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -41,8 +42,15 @@ pub(crate) struct Topology {
     pub(crate) outlines: Vec<u32>,
     /// Number of connected components.
     pub(crate) components: usize,
-    /// The edges in pieces, for searching.
+    /// Made when it is first asked for.
+    index: OnceLock<Index>,
+}
+
+/// The edges in pieces, for searching.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Index {
     pub(crate) pieces: Vec<Piece>,
+    /// Of the pieces' boxes.
     pub(crate) tree: BoxTree,
 }
 
@@ -89,7 +97,10 @@ impl Topology {
         noder.rest();
         graph.rest();
         topology.link();
-        topology.index(&mut noder.order);
+        // Where most edges are bent, there are mostly faces in faces: then it is needed at once.
+        if topology.points.len() > 3 * topology.ends.len() {
+            topology.index = topology.make_index(&mut noder.order).into();
+        }
         topology.find_faces();
         topology
     }
@@ -108,15 +119,28 @@ impl Topology {
         }
     }
 
-    fn index(&mut self, order: &mut HilbertOrder) {
-        self.pieces.reserve(self.ends.len());
-        for edge in 0..self.ends.len() {
-            let (first, end) =
-                (self.edge_starts[edge] as usize, self.edge_starts[edge + 1] as usize);
-            piece::split(&self.points, first, end - 1, edge as u32, &mut self.pieces);
-        }
-        let (points, pieces) = (&self.points, &self.pieces);
-        self.tree.build(pieces.len(), |piece| pieces[piece].bounds(points), order);
+    /// What places are looked up in.
+    pub(crate) fn index(&self) -> &Index {
+        self.index.get_or_init(|| self.make_index(&mut HilbertOrder::default()))
+    }
+
+    /// The index, if it has been made.
+    pub(crate) fn made_index(&self) -> Option<&Index> {
+        self.index.get()
+    }
+
+    /// Adds the pieces of an edge.
+    pub(crate) fn split(&self, edge: u32, pieces: &mut Vec<Piece>) {
+        let starts = &self.edge_starts[edge as usize..];
+        piece::split(&self.points, starts[0] as usize, starts[1] as usize - 1, edge, pieces);
+    }
+
+    fn make_index(&self, order: &mut HilbertOrder) -> Index {
+        let mut pieces = Vec::with_capacity(self.ends.len());
+        (0..self.ends.len() as u32).for_each(|edge| self.split(edge, &mut pieces));
+        let mut tree = BoxTree::default();
+        tree.build(pieces.len(), |piece| pieces[piece].bounds(&self.points), order);
         order.rest();
+        Index { pieces, tree }
     }
 }

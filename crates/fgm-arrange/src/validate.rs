@@ -1,5 +1,5 @@
 use crate::predicate::{by_angle, in_box, orient};
-use crate::topology::{NONE, Topology};
+use crate::topology::{Index, NONE, Topology};
 use crate::{Arrangement, EdgeId, FaceId, Invalid, Location, VertexId};
 use fgm_core::{Point2, Polygon};
 use std::cmp::Ordering;
@@ -53,8 +53,9 @@ impl<L> Arrangement<L> {
         let topology = &self.topology;
         let mut clash = None;
         // Pieces do not meet themselves.
-        topology.tree.self_join(|a, b| {
-            let (a, b) = (&topology.pieces[a as usize], &topology.pieces[b as usize]);
+        let Index { pieces, tree } = topology.index();
+        tree.self_join(|a, b| {
+            let (a, b) = (&pieces[a as usize], &pieces[b as usize]);
             for i in a.segments() {
                 for j in b.segments() {
                     if clash.is_none() && topology.clash(a.owner, i, b.owner, j) {
