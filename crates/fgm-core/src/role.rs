@@ -7,6 +7,12 @@ pub enum Role {
     OuterWall,
     /// The walls behind it.
     InnerWall,
+    /// A wall with up to half of its width over air.
+    SlightOverhang,
+    /// A wall with more than half of its width over air.
+    HalfOverhang,
+    /// A wall over air.
+    FullOverhang,
     /// Sparse filling.
     Infill,
     /// Full filling inside.
@@ -31,9 +37,12 @@ pub enum Role {
 
 impl Role {
     /// Every role.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 15] = [
         Self::OuterWall,
         Self::InnerWall,
+        Self::SlightOverhang,
+        Self::HalfOverhang,
+        Self::FullOverhang,
         Self::Infill,
         Self::SolidInfill,
         Self::TopSkin,
@@ -59,5 +68,16 @@ impl Role {
     /// Whether the bead lies behind walls and skins, where nobody sees its colour.
     pub fn is_hidden(self) -> bool {
         matches!(self, Self::Infill | Self::SolidInfill | Self::PurgeInfill)
+    }
+
+    /// How far a wall hangs over: 1 for up to half of its width over air, 2 for more, 3 for all of
+    /// it; 0 for one that is held, and for what is no wall.
+    pub fn overhang(self) -> usize {
+        match self {
+            Self::SlightOverhang => 1,
+            Self::HalfOverhang => 2,
+            Self::FullOverhang => 3,
+            _ => 0,
+        }
     }
 }

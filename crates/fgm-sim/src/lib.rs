@@ -39,7 +39,6 @@ mod picture;
 mod piece;
 mod raster;
 mod replay;
-mod section;
 mod totals;
 mod transition;
 

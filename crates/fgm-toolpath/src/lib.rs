@@ -23,6 +23,7 @@
 //! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`] |
+//! | over air | [`Support`], [`mark_overhangs`], [`bridges`] |
 //! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`] |
 //! | beside the part | [`Towers`], [`skirt`], [`brim`] |
 //! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
@@ -60,6 +61,7 @@
 //! ```
 
 mod against;
+mod bridge;
 mod brim;
 mod error;
 mod face_fill;
@@ -70,6 +72,7 @@ mod join_ends;
 mod order;
 mod order_near;
 mod order_routes;
+mod overhang;
 mod path;
 mod plan;
 pub mod region;
@@ -80,6 +83,7 @@ mod section;
 mod section_runs;
 mod skins;
 mod skirt;
+mod support;
 mod tower;
 mod tower_layout;
 mod travel;
@@ -87,6 +91,7 @@ mod walls;
 mod zipper;
 
 pub use against::{AgainstOptions, against};
+pub use bridge::{Bridge, BridgeOptions, bridges};
 pub use brim::{BrimOptions, brim};
 pub use error::ToolpathError;
 pub use face_fill::FaceFill;
@@ -96,12 +101,14 @@ pub use inset::{ClipperInset, Inset};
 pub use join_ends::join_ends;
 pub use order::{OrderOptions, RoleOrder, Seam, order, order_with};
 pub use order_routes::order_routes;
+pub use overhang::mark_overhangs;
 pub use path::{Path, Piece};
 pub use plan::{LayerPlan, LayerStats, Motions, SHORT_PIECE};
 pub use route::route;
 pub use section::{SectionOptions, section};
 pub use skins::{Skins, skins, skins_with};
 pub use skirt::{SkirtOptions, skirt};
+pub use support::{Hold, Scratch, Stretch, Support};
 pub use tower::{TowerOptions, Towers};
 pub use tower_layout::Side;
 pub use travel::connect;

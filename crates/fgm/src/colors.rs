@@ -147,14 +147,14 @@ pub(crate) fn default_count(machine_colors: Option<usize>, materials: usize) -> 
 ///
 /// Strategy 2: a band must be at least one bead wide (paper, section 3.5), so the steepest places
 /// of the part but a few decide. Strategy 1: at most `palette.auto_short_share` of the pieces may
-/// be shorter than `palette.short_piece` (paper, section 3.4.3); `pieces` makes the pieces of some
+/// be shorter than `palette.short_piece` (paper, section 3.4.3); `short` gives their share in some
 /// layers with a palette of so many colours.
 pub(crate) fn auto_count(
     design: &Design,
     settings: &Settings,
     outliner: &Outliner<'_>,
     machine_colors: Option<usize>,
-    pieces: &dyn Fn(usize) -> Result<Vec<Piece>, SliceError>,
+    short: &dyn Fn(usize) -> Result<f64, SliceError>,
 ) -> Result<usize, SliceError> {
     let counts: Vec<usize> = (1..=machine_colors.unwrap_or(MOST_AUTO_COLORS))
         .filter(|&n| Palette::new(design.materials.len(), n).is_ok())
@@ -168,8 +168,7 @@ pub(crate) fn auto_count(
             Ok(but_few.is_none_or(|g| g * settings.layer.bead_width <= band))
         }
         Strategy::Sectioned => {
-            let pieces = pieces(count)?;
-            Ok::<_, SliceError>(short_share(&pieces, settings) <= settings.palette.auto_short_share)
+            Ok::<_, SliceError>(short(count)? <= settings.palette.auto_short_share)
         }
     };
     // Pieces only get shorter with more colours: halve the list. One colour always fits.
@@ -184,12 +183,6 @@ pub(crate) fn auto_count(
 /// Bands that one material's fraction passes through from 0 to 1.
 fn bands_along_gradient(colors: usize, materials: usize) -> f64 {
     if materials <= 2 { colors as f64 } else { (colors as f64).powf(1.0 / (materials - 1) as f64) }
-}
-
-/// The share of the part's sectioned pieces that are short.
-pub(crate) fn short_share(pieces: &[Piece], settings: &Settings) -> f64 {
-    let short = pieces.iter().filter(|piece| is_short(piece, settings)).count();
-    short as f64 / pieces.len().max(1) as f64
 }
 
 /// Whether a piece of the part is shorter than prints well.

@@ -1,19 +1,21 @@
 use fgm_contour::ContourOptions;
-use fgm_core::{Point2, Polygon};
+use fgm_core::{Point2, Polygon, Role};
 use fgm_field::{Design, ExprField};
 use fgm_palette::Palette;
 use fgm_toolpath::{
-    ClipperInset, OrderOptions, Piece, brim, join_ends, order_routes, order_with, skirt,
+    ClipperInset, OrderOptions, Piece, brim, join_ends, mark_overhangs, order_routes, order_with,
+    skirt,
 };
 
 use crate::{
     against,
     boundary_lines::BoundaryLines,
     choice::Strategy,
+    colors,
     error::SliceError,
     foot,
     layers::{Layer, Layers},
-    outlines::OutlineWindow,
+    outlines::{Outline, OutlineWindow, SharedOutline},
     purge::{Needs, hidden_first},
     sectioned,
     settings::Settings,
@@ -46,6 +48,10 @@ pub(crate) struct PlannedLayer {
     pub(crate) index: usize,
     /// In printing order, colour by colour.
     pub(crate) pieces: Vec<Piece>,
+    /// How many of them there are, before they are cut where they hang over, and how many of these
+    /// are short.
+    pub(crate) count: usize,
+    pub(crate) short: usize,
     /// Faces of one colour.
     pub(crate) faces: usize,
     /// Volume of the part in this layer, mm³.
@@ -74,12 +80,14 @@ impl Job<'_> {
             })
         });
         let region = drawn.as_ref().unwrap_or(&outline.region).as_slice();
+        let below = timed(&mut seconds.contour, || self.below(layer))?;
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
         let colors = self.palette.order(layer.index);
         let mut merged = 1;
         let (pieces, faces) = match self.settings.slice.strategy {
             Strategy::Sectioned => {
-                let (pieces, faces) = sectioned::pieces(self, layer, region, &mut seconds)?;
+                let (pieces, faces) =
+                    sectioned::pieces(self, layer, region, below.as_deref(), &mut seconds)?;
                 let corner = self.design.bounds.max.truncate();
                 let options = self.settings.order_options(layer.index, corner);
                 let order = || {
@@ -101,16 +109,39 @@ impl Job<'_> {
                 (timed(&mut seconds.toolpath, order), filled.faces)
             }
         };
-        let pieces = timed(&mut seconds.toolpath, || self.with_loops(layer, region, pieces));
+        let count = pieces.len();
+        let short = pieces.iter().filter(|p| colors::is_short(p, self.settings)).count();
+        let pieces = timed(&mut seconds.toolpath, || {
+            let pieces = self.with_overhangs(pieces, below.as_deref());
+            self.with_loops(layer, region, pieces)
+        });
         Ok(PlannedLayer {
             index: layer.index,
             pieces,
+            count,
+            short,
             faces,
             model_mm3: area * layer.height,
             seconds,
             warnings: outline.warnings.clone(),
             merged,
         })
+    }
+
+    /// The outline that holds a layer; none for the one on the bed.
+    fn below(&self, layer: &Layer) -> Result<Option<SharedOutline>, SliceError> {
+        let below = layer.index.checked_sub(1).filter(|_| layer.index > self.first);
+        below.map(|index| self.outlines.get(&self.layers.get(index))).transpose()
+    }
+
+    /// Cuts walls where they begin to hang over; against the gradient, where there are no walls,
+    /// every bead.
+    fn with_overhangs(&self, pieces: Vec<Piece>, below: Option<&Outline>) -> Vec<Piece> {
+        let share = self.settings.walls.overhang;
+        let (true, Some(below)) = (share > 0.0, below) else { return pieces };
+        let all = self.settings.slice.strategy == Strategy::Against;
+        let is_wall = |role| matches!(role, Role::OuterWall | Role::InnerWall | Role::GapFill);
+        mark_overhangs(pieces, below.border(), share, |role| all || is_wall(role))
     }
 
     /// On the first layer, skirt and brim around the part in the colour that comes first.

@@ -80,9 +80,10 @@ pub use purge::{PurgeInto, PurgeLayout, PurgeReport, PurgeSavings, Saving};
 pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
 pub use sections::Sections;
 pub use settings::{
-    AgainstSettings, BrimSettings, CompensationSettings, ContourSettings, InfillSettings,
-    LayerSettings, LeadSettings, OrderSettings, PaletteSettings, PurgeSettings, SETTINGS,
-    SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings, WallSettings,
+    AgainstSettings, BridgeSettings, BrimSettings, CompensationSettings, ContourSettings,
+    InfillSettings, LayerSettings, LeadSettings, OrderSettings, PaletteSettings, PurgeSettings,
+    SETTINGS, SettingError, SettingInfo, Settings, SkinSettings, SkirtSettings, SliceSettings,
+    WallSettings,
 };
 pub use slicer::{MAX_THREADS, Slicer};
 pub use stages::StageSeconds;

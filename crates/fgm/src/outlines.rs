@@ -1,8 +1,9 @@
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fgm_contour::{ContourOptions, Issue, MeshIssues, MeshSlicer, outline};
 use fgm_core::{Bounds2, Field, Polygon};
 use fgm_field::{Design, Geometry};
+use fgm_toolpath::Support;
 
 use crate::{error::SliceError, layers::Layer};
 
@@ -10,12 +11,25 @@ use crate::{error::SliceError, layers::Layer};
 pub(crate) type SharedOutline = Arc<Outline>;
 
 /// The outline of one layer.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Outline {
     /// The region of the part, at the height of the layer's cut.
     pub(crate) region: Vec<Polygon>,
     /// What was mended or lost on the way.
     pub(crate) warnings: Vec<String>,
+    /// The region's border, made when it is first asked for.
+    border: OnceLock<Support>,
+}
+
+impl Outline {
+    fn new(region: Vec<Polygon>, warnings: Vec<String>) -> Self {
+        Self { region, warnings, border: OnceLock::new() }
+    }
+
+    /// The region's border.
+    pub(crate) fn border(&self) -> &Support {
+        self.border.get_or_init(|| Support::new(&self.region))
+    }
 }
 
 /// Where outlines come from: a field that is sampled, or a mesh that is cut.
@@ -64,12 +78,12 @@ impl<'a> Outliner<'a> {
         match &self.source {
             Source::Field(field, window) => {
                 let region = outline(field.at_z(z).as_ref(), window, &self.options)?;
-                Ok(Outline { region, warnings: Vec::new() })
+                Ok(Outline::new(region, Vec::new()))
             }
             Source::Mesh(slicer) => {
                 let section = slicer.section(z);
                 let warnings = section.warnings.iter().map(ToString::to_string).collect();
-                Ok(Outline { region: section.polygons, warnings })
+                Ok(Outline::new(section.polygons, warnings))
             }
         }
     }

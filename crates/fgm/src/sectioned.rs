@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use fgm_contour::ContourOptions;
-use fgm_core::{Band, Polygon, Role, Sectioner};
+use fgm_core::{Band, Polygon, Role, Sectioner, bead};
 use fgm_toolpath::{
-    InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill, infill_graded,
-    section, skins_with, walls,
+    BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, bridges,
+    infill, infill_graded, region, section, skins_with, walls,
 };
 
 use crate::{
@@ -17,6 +17,8 @@ use crate::{
     graded::{GradedLayer, check_material},
     job::Job,
     layers::Layer,
+    outlines::{Outline, SharedOutline},
+    settings::BridgeSettings,
     short_sections::ShortSections,
     stages::{StageSeconds, timed},
 };
@@ -26,12 +28,13 @@ pub(crate) fn pieces(
     job: &Job<'_>,
     layer: &Layer,
     region: &[Polygon],
+    below: Option<&Outline>,
     seconds: &mut StageSeconds,
 ) -> Result<(Vec<Piece>, usize), SliceError> {
     let neighbours = Neighbours::of(job, layer, seconds)?;
     let paths = timed(&mut seconds.toolpath, || {
         let simple = |path: Path| path.simplified(job.settings.contour.resolution);
-        let paths = paths(job, layer, region, &neighbours)?.into_iter();
+        let paths = paths(job, layer, region, below, &neighbours)?.into_iter();
         Ok::<_, SliceError>(paths.map(simple).collect::<Vec<_>>())
     })?;
     let mut pieces = Vec::new();
@@ -70,8 +73,8 @@ pub(crate) fn pieces(
 
 /// The outlines that skins look at; none past the part's ends.
 struct Neighbours {
-    above: Vec<crate::outlines::SharedOutline>,
-    below: Vec<crate::outlines::SharedOutline>,
+    above: Vec<SharedOutline>,
+    below: Vec<SharedOutline>,
 }
 
 impl Neighbours {
@@ -82,7 +85,7 @@ impl Neighbours {
         }
         let get = |index: Option<usize>| match index {
             Some(index) if index < job.layers.count() => job.outlines.get(&job.layers.get(index)),
-            _ => Ok(crate::outlines::SharedOutline::default()),
+            _ => Ok(SharedOutline::default()),
         };
         timed(&mut seconds.contour, || {
             let skins = &job.settings.skins;
@@ -105,6 +108,7 @@ fn paths(
     job: &Job<'_>,
     layer: &Layer,
     region: &[Polygon],
+    under: Option<&Outline>,
     neighbours: &Neighbours,
 ) -> Result<Vec<Path>, SliceError> {
     let settings = job.settings;
@@ -128,18 +132,22 @@ fn paths(
         Some(_) if is_solid(job) => InfillOptions { role: Role::SolidInfill, ..sparse },
         _ => sparse,
     };
+    let inside = match under.filter(|_| settings.bridges.enabled) {
+        Some(under) => bridged(job, walls.inside, under, &sparse, &mut paths),
+        None => walls.inside,
+    };
     if is_solid(job) && job.hidden_purges.is_none() {
         let role = match layer.index {
             0 => Role::BottomSkin,
             i if i + 1 == job.layers.count() => Role::TopSkin,
             _ => Role::SolidInfill,
         };
-        paths.extend(fill(&walls.inside, InfillOptions { density: 1.0, role, ..sparse }));
+        paths.extend(fill(&inside, InfillOptions { density: 1.0, role, ..sparse }));
         return Ok(paths);
     }
     let above: Vec<&[Polygon]> = neighbours.above.iter().map(|o| o.region.as_slice()).collect();
     let below: Vec<&[Polygon]> = neighbours.below.iter().map(|o| o.region.as_slice()).collect();
-    let skins = skins_with(&walls.inside, &above, &below, width, &job.inset);
+    let skins = skins_with(&inside, &above, &below, width, &job.inset);
     let solid = InfillOptions { pattern: Pattern::Rectilinear, density: 1.0, ..sparse };
     paths.extend(fill(&skins.top, InfillOptions { role: Role::TopSkin, ..solid }));
     paths.extend(fill(&skins.bottom, InfillOptions { role: Role::BottomSkin, ..solid }));
@@ -151,4 +159,37 @@ fn paths(
         paths.extend(fill(&skins.sparse, sparse));
     }
     Ok(paths)
+}
+
+/// Fills the bridges in `inside` and appends their lines; what is left of it.
+fn bridged(
+    job: &Job<'_>,
+    mut inside: Vec<Polygon>,
+    below: &Outline,
+    usual: &InfillOptions,
+    paths: &mut Vec<Path>,
+) -> Vec<Polygon> {
+    let BridgeSettings { flow, anchor, .. } = job.settings.bridges;
+    let (width, height) = (usual.width, usual.height);
+    let reach =
+        width + job.settings.walls.count.saturating_sub(1) as f64 * bead::spacing(width, height);
+    let options = BridgeOptions { width, anchor, reach };
+    for bridge in bridges(&inside, &below.region, below.border(), &options, &job.inset) {
+        let solid = InfillOptions {
+            pattern: Pattern::Aligned,
+            density: 1.0,
+            angle: bridge.angle,
+            role: Role::Bridge,
+            ..*usual
+        };
+        // Lines as far apart as ever, of more or less volume.
+        let scaled = |mut path: Path| {
+            path.width = bead::width(flow * bead::area(path.width, height), height);
+            path.role = Role::Bridge;
+            path
+        };
+        paths.extend(infill(&bridge.region, &solid, &job.inset).into_iter().map(scaled));
+        inside = region::difference(&inside, &bridge.region);
+    }
+    inside
 }

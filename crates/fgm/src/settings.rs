@@ -127,6 +127,8 @@ settings! {
     walls: WallSettings {
         #[doc = "How many walls."]
         count: usize = 3, "3", "count";
+        #[doc = "Share of a bead's width over air from which a wall hangs over, and is printed slower (the printer's speed.overhang, fan.overhang), with strategy against every bead; 0 for never."]
+        overhang: f64 = 0.25, "0.25", "share";
     }
     #[doc = "Solid layers below and above, strategy sectioned."]
     skins: SkinSettings {
@@ -134,6 +136,15 @@ settings! {
         top: usize = 4, "4", "layers";
         #[doc = "Solid layers over a bottom."]
         bottom: usize = 4, "4", "layers";
+    }
+    #[doc = "What lies over air between places that hold it, strategy sectioned; its speed and fan are the printer's speed.bridge and fan.bridge."]
+    bridges: BridgeSettings {
+        #[doc = "Whether to look for bridges: they are solid, and their lines go the shortest way across."]
+        enabled: bool = true, "true", "true | false";
+        #[doc = "Factor on the volume of their beads."]
+        flow: f64 = 1.0, "1", "factor";
+        #[doc = "How far their lines reach on to what holds them."]
+        anchor: f64 = 1.0, "1", "mm";
     }
     #[doc = "Filling between the walls, strategy sectioned."]
     infill: InfillSettings {
@@ -358,6 +369,9 @@ impl Settings {
         let cooling = &self.cooling;
         within("cooling.min_layer_time", cooling.min_layer_time, 0.0..=3600.0, "0 to 3600 s")?;
         within("cooling.min_speed", cooling.min_speed, 0.1..=1e4, "0.1 to 10000 mm/s")?;
+        within("walls.overhang", self.walls.overhang, 0.0..=0.5, "0 to 0.5")?;
+        within("bridges.flow", self.bridges.flow, 0.1..=3.0, "0.1 to 3")?;
+        within("bridges.anchor", self.bridges.anchor, 0.0..=100.0, "0 to 100 mm")?;
         let foot = self.layer.elephant_foot;
         within("layer.elephant_foot", foot, 0.0..=5.0, "0 to 5 mm")?;
         within("brim.width", self.brim.width, 0.0..=100.0, "0 to 100 mm")?;

@@ -281,11 +281,12 @@ impl<'a> Slicer<'a> {
                 colors::auto_count(design, settings, outliner, most, &|count| {
                     let palette = colors::palette(count, design, settings, outliner)?;
                     let job = self.job(outliner, &palette, layers, 1)?;
-                    let mut pieces = Vec::new();
+                    let (mut short, mut pieces) = (0, 0);
                     for index in spread(layers.count(), AUTO_LAYERS) {
-                        pieces.extend(job.plan(index)?.pieces);
+                        let planned = job.plan(index)?;
+                        (short, pieces) = (short + planned.short, pieces + planned.count);
                     }
-                    Ok(pieces)
+                    Ok(short as f64 / pieces.max(1) as f64)
                 })?
             }
         };
@@ -425,9 +426,8 @@ impl<'a> Slicer<'a> {
         seconds.add(&planned.seconds);
         report.faces += planned.faces;
         report.model_mm3 += planned.model_mm3;
-        report.pieces += planned.pieces.len();
-        report.short_pieces +=
-            planned.pieces.iter().filter(|p| colors::is_short(p, self.settings)).count();
+        report.pieces += planned.count;
+        report.short_pieces += planned.short;
     }
 
     fn fill(&self, report: &mut Report, summary: &Summary, colors: usize, layers: usize) {

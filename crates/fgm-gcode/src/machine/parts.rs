@@ -223,6 +223,9 @@ part!(
         top_skin: f64 = 40.0,
         /// Full filling with nothing below.
         bottom_skin: f64 = 40.0,
+        /// Walls that hang over, as shares of the outer wall's speed: up to half of their width
+        /// over air, more than half, all of it.
+        overhang: [f64; 3] = [0.8, 0.6, 0.5],
         /// Filling over air.
         bridge: f64 = 25.0,
         /// Thin beads.
@@ -248,6 +251,9 @@ impl Speeds {
         match role {
             Role::OuterWall => self.outer_wall,
             Role::InnerWall => self.inner_wall,
+            Role::SlightOverhang => self.outer_wall * self.overhang[0],
+            Role::HalfOverhang => self.outer_wall * self.overhang[1],
+            Role::FullOverhang => self.outer_wall * self.overhang[2],
             Role::Infill | Role::PurgeInfill => self.infill,
             Role::SolidInfill => self.solid_infill,
             Role::TopSkin => self.top_skin,
@@ -300,10 +306,23 @@ part!(
         speed: f64 = 1.0,
         /// Over bridges.
         bridge: f64 = 1.0,
+        /// On walls that hang over.
+        overhang: f64 = 1.0,
         /// The first layer with the fan on, from 0.
         from_layer: u32 = 1,
     }
 );
+
+impl Fan {
+    /// The share for a role's beads, from `from_layer` on.
+    pub fn of(&self, role: Role) -> f64 {
+        match role {
+            Role::Bridge => self.bridge,
+            role if role.overhang() > 0 => self.overhang,
+            _ => self.speed,
+        }
+    }
+}
 
 part!(
     /// Changing heads.

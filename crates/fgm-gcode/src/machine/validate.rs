@@ -8,6 +8,7 @@ struct Range(f64, f64, &'static str);
 const POSITIVE: Range = Range(1e-6, 1e6, "a number above 0");
 const NOT_NEGATIVE: Range = Range(0.0, 1e6, "0 or more");
 const SHARE: Range = Range(0.0, 1.0, "0 to 1");
+const OVERHANG: Range = Range(0.01, 1.0, "shares of the outer wall's speed, 0.01 to 1");
 const CELSIUS: Range = Range(0.0, 1000.0, "0 to 1000 °C");
 const ANY: Range = Range(-1e6, 1e6, "a number of at most 1,000,000");
 
@@ -145,6 +146,9 @@ impl Machine {
             ("speed.solid_infill", s.solid_infill, &POSITIVE),
             ("speed.top_skin", s.top_skin, &POSITIVE),
             ("speed.bottom_skin", s.bottom_skin, &POSITIVE),
+            ("speed.overhang", s.overhang[0], &OVERHANG),
+            ("speed.overhang", s.overhang[1], &OVERHANG),
+            ("speed.overhang", s.overhang[2], &OVERHANG),
             ("speed.bridge", s.bridge, &POSITIVE),
             ("speed.gap_fill", s.gap_fill, &POSITIVE),
             ("speed.skirt", s.skirt, &POSITIVE),
@@ -164,6 +168,7 @@ impl Machine {
             ("template.start_seconds", self.template.start_seconds, &NOT_NEGATIVE),
             ("fan.speed", self.fan.speed, &SHARE),
             ("fan.bridge", self.fan.bridge, &SHARE),
+            ("fan.overhang", self.fan.overhang, &SHARE),
             ("tool_change.retraction", c.retraction, &NOT_NEGATIVE),
             ("tool_change.prime", c.prime, &NOT_NEGATIVE),
             ("tool_change.z_hop", c.z_hop, &NOT_NEGATIVE),

@@ -36,6 +36,7 @@ impl<W: io::Write> Writer<W> {
             self.after_first_layer()?;
         }
         if begun == u64::from(self.options.fan.from_layer) {
+            self.bead.told_fan = self.options.fan.speed;
             self.dialect.fan(self.options.fan.speed, &mut self.text);
         }
         Ok(())

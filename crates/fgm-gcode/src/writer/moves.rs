@@ -26,6 +26,8 @@ pub(super) struct Bead {
     /// Turns a minute of an auger, as the bead needs them and as told last.
     turns: Option<u32>,
     told_turns: Option<u32>,
+    /// The fan's share of full speed, as told last.
+    pub(super) told_fan: f64,
     /// Last tags written.
     tag_role: Option<Role>,
     tag_width: Option<Fixed<3>>,
@@ -46,6 +48,7 @@ impl Default for Bead {
             owed: 0.0,
             turns: None,
             told_turns: None,
+            told_fan: 0.0,
             tag_role: None,
             tag_width: None,
         }
@@ -85,6 +88,7 @@ const fn tag(role: Role) -> &'static str {
     match role {
         Role::OuterWall => "External perimeter",
         Role::InnerWall => "Perimeter",
+        Role::SlightOverhang | Role::HalfOverhang | Role::FullOverhang => "Overhang perimeter",
         Role::Infill | Role::PurgeInfill => "Internal infill",
         Role::SolidInfill | Role::BottomSkin => "Solid infill",
         Role::TopSkin => "Top solid infill",
@@ -169,7 +173,7 @@ impl<W: io::Write> Writer<W> {
     }
 
     /// What comes before a bead where it changes: an auger's speed, `;TYPE:`, `;WIDTH:`, the fan for
-    /// bridges.
+    /// bridges and overhangs.
     #[inline]
     fn tags(&mut self, width: f64, role: Role) -> Result<(), GcodeError> {
         if let Some(turns) = self.bead.turns.filter(|_| self.bead.turns != self.bead.told_turns) {
@@ -178,8 +182,10 @@ impl<W: io::Write> Writer<W> {
         }
         if self.bead.tag_role != Some(role) {
             let last = self.bead.tag_role.replace(role);
-            self.dialect.comment(&format!("TYPE:{}", tag(role)), &mut self.text);
-            self.bridge_fan(last, role);
+            if last.map(tag) != Some(tag(role)) {
+                self.dialect.comment(&format!("TYPE:{}", tag(role)), &mut self.text);
+            }
+            self.role_fan(role);
         }
         let width = Fixed::round(width)?;
         if self.bead.tag_width != Some(width) {
@@ -192,12 +198,12 @@ impl<W: io::Write> Writer<W> {
         Ok(())
     }
 
-    fn bridge_fan(&mut self, last: Option<Role>, role: Role) {
+    /// The fan for bridges and what hangs over.
+    fn role_fan(&mut self, role: Role) {
         let fan = &self.options.fan;
-        let was = last == Some(Role::Bridge);
-        let on = self.summary.layers > u64::from(fan.from_layer);
-        if was != (role == Role::Bridge) && on && fan.bridge != fan.speed {
-            let share = if was { fan.speed } else { fan.bridge };
+        let share = fan.of(role);
+        if self.summary.layers > u64::from(fan.from_layer) && self.bead.told_fan != share {
+            self.bead.told_fan = share;
             self.dialect.fan(share, &mut self.text);
         }
     }

@@ -7,7 +7,7 @@ use super::{
     Follower, GREATEST,
     arc::{self, Center},
 };
-use crate::{Bead, Event, FaultKind, Travel, section};
+use crate::{Bead, Event, FaultKind, Travel};
 
 /// Beads with this much filament still pulled back count as printed while retracted, mm.
 const RETRACTED: f64 = 0.05;
@@ -193,7 +193,7 @@ impl Follower {
             to,
             fed,
             height,
-            width: tagged.unwrap_or_else(|| section::width(area, height)),
+            width: tagged.unwrap_or_else(|| bead::width(area, height)),
             role: self.bead.role,
             head,
             mixture,

@@ -5,6 +5,8 @@ use fgm_core::{Bounds2, Point2};
 /// The most cells an edge: a long thin border must not make mostly empty cells, which cost more
 /// to clear than they save.
 const CELLS_AN_EDGE: f64 = 4.0;
+/// A segment is cut into no more stretches than this.
+const MOST_STRETCHES: f64 = 1e4;
 
 /// Edges by cell, in one array a piece (no allocation a cell).
 pub(crate) struct EdgeGrid {
@@ -17,6 +19,8 @@ pub(crate) struct EdgeGrid {
     starts: Vec<u32>,
     items: Vec<u32>,
     edges: Vec<(Point2, Point2)>,
+    /// Cells without an edge in or around them; empty where that is not asked for.
+    quiet: Vec<bool>,
 }
 
 impl EdgeGrid {
@@ -44,6 +48,7 @@ impl EdgeGrid {
             starts,
             items: Vec::new(),
             edges,
+            quiet: Vec::new(),
         };
         grid.fill();
         grid
@@ -122,13 +127,118 @@ impl EdgeGrid {
         let first = out.len();
         for edge in near {
             let (c, d) = self.edges[edge as usize];
-            let (u, v) = (b - a, d - c);
-            let apart = (u.perp_dot(c - a) > 0.0) != (u.perp_dot(d - a) > 0.0);
-            let (from, to) = (v.perp_dot(a - c), v.perp_dot(b - c));
-            if apart && (from > 0.0) != (to > 0.0) {
-                out.push((from / (from - to)).clamp(0.0, 1.0));
-            }
+            out.extend(crossing(a, b, c, d));
         }
         out[first..].sort_unstable_by(f64::total_cmp);
     }
+
+    /// Whether a point lies inside the border, by counting how often the way to it crosses. On the
+    /// border either answer is possible.
+    pub(crate) fn contains(&self, p: Point2) -> bool {
+        let Some(row) = self.row_of(p.y) else { return false };
+        let mut inside = false;
+        // Towards the nearer side; an edge counts in the cell in which it meets the row's line.
+        let column = self.column(p.x);
+        let to_left = 2 * column < self.columns;
+        let cells = if to_left { 0..column + 1 } else { column..self.columns };
+        for cell in cells {
+            let place = row * self.columns + cell;
+            let range = self.starts[place] as usize..self.starts[place + 1] as usize;
+            for &edge in &self.items[range] {
+                let (a, b) = self.edges[edge as usize];
+                if (a.y > p.y) == (b.y > p.y) {
+                    continue;
+                }
+                let x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+                if (x < p.x) == to_left && self.column(x) == cell {
+                    inside = !inside;
+                }
+            }
+        }
+        inside
+    }
+
+    fn row_of(&self, y: f64) -> Option<usize> {
+        let height = self.rows as f64 * self.cell;
+        (y >= self.origin.y && y <= self.origin.y + height).then(|| self.row(y))
+    }
+
+    /// Calls `visit` for every edge that may come within `reach` of a stretch of the segment from `a`
+    /// to `b`: with the shares of the segment between which the stretch lies, and the edge's number
+    /// and ends; some edges more than once.
+    pub(crate) fn along(
+        &self,
+        a: Point2,
+        b: Point2,
+        reach: f64,
+        mut visit: impl FnMut((f64, f64), u32, (Point2, Point2)),
+    ) {
+        // What is within `reach` of so short a stretch lies in the cells around its beginning.
+        let longest = (self.cell - reach).max(0.5 * self.cell);
+        let count = (a.distance(b) / longest).ceil().clamp(1.0, MOST_STRETCHES);
+        for i in 0..count as u32 {
+            let stretch = (f64::from(i) / count, f64::from(i + 1) / count);
+            let (p, q) = (a.lerp(b, stretch.0), a.lerp(b, stretch.1));
+            let cell = self.row(p.y) * self.columns + self.column(p.x);
+            if reach < longest && self.quiet.get(cell) == Some(&true) {
+                continue;
+            }
+            let (low, high) = (p.min(q) - reach, p.max(q) + reach);
+            for row in self.row(low.y)..=self.row(high.y) {
+                let cells = row * self.columns;
+                let first = self.starts[cells + self.column(low.x)] as usize;
+                let end = self.starts[cells + self.column(high.x) + 1] as usize;
+                for &edge in &self.items[first..end] {
+                    let (c, d) = self.edges[edge as usize];
+                    let apart = c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any();
+                    if !apart && !beside(p, q, c, d, reach) {
+                        visit(stretch, edge, (c, d));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Marks the cells that have no edge in them or in any of the eight around.
+    fn mark_quiet(&mut self) {
+        let busy = |cell: usize| self.starts[cell] < self.starts[cell + 1];
+        let mut quiet = vec![true; self.rows * self.columns];
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                if !busy(row * self.columns + column) {
+                    continue;
+                }
+                for y in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
+                    let cells = y * self.columns;
+                    let right = (column + 1).min(self.columns - 1);
+                    quiet[cells + column.saturating_sub(1)..=cells + right].fill(false);
+                }
+            }
+        }
+        self.quiet = quiet;
+    }
+
+    /// As far as [`along`](Self::along) is to be asked.
+    pub(crate) fn for_along(edges: Vec<(Point2, Point2)>, cell: f64) -> Self {
+        let mut grid = Self::new(edges, cell);
+        grid.mark_quiet();
+        grid
+    }
+}
+
+/// Where the segment from `a` to `b` crosses an edge, as a share of it; ends count as
+/// [`EdgeGrid::crossings`] says.
+pub(crate) fn crossing(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<f64> {
+    let (u, v) = (b - a, d - c);
+    let apart = (u.perp_dot(c - a) > 0.0) != (u.perp_dot(d - a) > 0.0);
+    let (from, to) = (v.perp_dot(a - c), v.perp_dot(b - c));
+    (apart && (from > 0.0) != (to > 0.0)).then(|| (from / (from - to)).clamp(0.0, 1.0))
+}
+
+/// Whether the segment from `p` to `q` lies farther than `reach` to one side of an edge's line.
+fn beside(p: Point2, q: Point2, c: Point2, d: Point2, reach: f64) -> bool {
+    let edge = d - c;
+    let (one, other) = (edge.perp_dot(p - c), edge.perp_dot(q - c));
+    let least = reach * reach * edge.length_squared();
+    one * other > 0.0 && one * one > least && other * other > least
 }
