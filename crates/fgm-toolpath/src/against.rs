@@ -7,7 +7,10 @@ use crate::{
     FaceFill, GapOptions, InfillOptions, Inset, Path, Pattern,
     gap::fill_thin,
     infill,
-    walls::{loops, peel::peel},
+    walls::{
+        loops,
+        peel::{HALF_LOOP, Peeling, peel},
+    },
 };
 
 /// More loops than any face has: a backstop, 10 m of loops 0.1 mm apart.
@@ -54,15 +57,17 @@ impl AgainstOptions {
 /// overlap. Faces are to be cut from an outline shrunk by `(width - spacing) / 2`; the outermost
 /// bead then lies half its width inside the true outline.
 ///
-/// What the loops leave, and faces too thin for loops, takes one or two beads of varying width
-/// ([`gap_fill`](crate::gap_fill)), two wherever two fit. [`route`](crate::route) joins the lines to
-/// few. Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
+/// What the loops leave, and faces too thin for loops, takes two beads of varying width
+/// ([`gap_fill`](crate::gap_fill)), one where two do not fit. Two make a loop; with beads from 0.6 to
+/// 1.6 widths there is room for two wherever the last loop ends, so that a face is nothing but loops,
+/// its tips apart. [`route`](crate::route) joins them to few. Loops have `turn` 0, 1, ... from outside to inside and [`Role::SolidInfill`].
 pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) -> Vec<Path> {
     let AgainstOptions { width, height, .. } = *options;
     let spacing = bead::spacing(width, height);
     let rectilinear = options.fill == FaceFill::Rectilinear;
     let most = if rectilinear { 1 } else { MOST_LOOPS };
-    let peel = peel(face, spacing, most, inset);
+    let peeling = Peeling { spacing, half_loop: half_loop(options), most };
+    let peel = peel(face, peeling, inset);
     let mut out = loops(&peel.loops, width, |_| Role::SolidInfill);
     if rectilinear {
         let lines = InfillOptions {
@@ -81,6 +86,18 @@ pub fn against(face: &[Polygon], options: &AgainstOptions, inset: &dyn Inset) ->
     let gaps = GapOptions { width, height, min_width, max_width, loops: true };
     out.extend(fill_thin(&peel.thin, &gaps, 0.0));
     out
+}
+
+/// Half the thickness, in spacings, below which a face takes no loop. Two beads are to fit inside
+/// the last loop, and no more than two where there is none: then the lines everywhere are loops,
+/// and no single bead leads away from them. Where the nozzle's limits are too narrow for that, one
+/// bead has to fit inside.
+fn half_loop(options: &AgainstOptions) -> f64 {
+    let AgainstOptions { width, height, min_width, max_width, .. } = *options;
+    let spacing = bead::spacing(width, height);
+    let in_spacings = |width: f64| bead::spacing(width, height) / spacing;
+    let (least, most) = (1.0 + in_spacings(min_width), in_spacings(max_width));
+    if least <= most { 0.5 * (least + most) } else { HALF_LOOP }
 }
 
 #[cfg(test)]

@@ -15,7 +15,9 @@ const HAIR: f64 = 2e-3;
 /// How far a middle line may be straightened, mm.
 const STRAIGHTEN: f64 = 5e-3;
 /// The share by which thickness may vary within one bead of constant width.
-const STEP: f64 = 0.2;
+const STEP: f64 = 0.05;
+/// How far a bead leads on into what is too thin for it, in line spacings.
+const MOST_LENGTHENED: f64 = 3.0;
 
 /// How gaps are filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +31,15 @@ pub struct GapOptions {
     /// The widest bead the nozzle lays, mm; wider gaps take two beads or more.
     pub max_width: f64,
     /// Whether two beads are laid wherever two fit, and not only where one does not: side by side
-    /// they make a loop, which ends where it begins ([`route`](crate::route)).
+    /// they make a loop, which ends where it begins ([`route`](crate::route)). Beads then lead to
+    /// the very end of a region, where another begins; else they stop half their width before it.
     pub loops: bool,
 }
 
 /// Beads along the middle of thin regions.
 ///
-/// The volume of the beads is the region's, less its ends and what is narrower than `min_width`.
+/// The volume of the beads is the region's, less its ends and what is narrower than `min_width`; a
+/// region that tapers off is filled to where it is half as wide as that, which makes up for the tip.
 /// A stretch thicker than `max_width` takes several beads side by side. Paths are open or closed,
 /// of [`Role::GapFill`], and each of one width; where the thickness changes a new path begins at
 /// the end of the last.
@@ -58,7 +62,7 @@ pub(crate) fn fill_thin(region: &[Polygon], options: &GapOptions, hair: f64) -> 
     let mut out = Vec::new();
     for polygon in region {
         let before = out.len();
-        let mesh = mesh::Mesh::new(polygon, 1.5 * fill.spacing, 8.0 * fill.spacing);
+        let mesh = mesh::Mesh::new(polygon, fill.longest_edge(), 8.0 * fill.spacing);
         if (mesh.area() - polygon.area()).abs() > 1e-3 * polygon.area() {
             // The border touches itself.
             if hair == 0.0 {
@@ -67,7 +71,7 @@ pub(crate) fn fill_thin(region: &[Polygon], options: &GapOptions, hair: f64) -> 
             }
             continue;
         }
-        for chain in chains::chains(mesh) {
+        for chain in chains::chains(mesh, options.loops) {
             fill.chain(&chain, &mut out);
         }
         if out.len() == before {
@@ -97,14 +101,26 @@ impl Fill {
         Self { spacing, round, least, most, loops: options.loops, hair }
     }
 
+    /// No border edge may be longer, mm: the triangles would not follow the sides. The ends of what
+    /// takes no loop stay whole: cut up, they would look like corners that the middle leads into.
+    fn longest_edge(&self) -> f64 {
+        if self.loops { 2.1 * self.most } else { 2.7 * self.spacing }
+    }
+
     /// How many beads fill a thickness; 0 where it is too thin for one.
     fn beads(&self, thickness: f64) -> usize {
         if thickness < self.least {
             return 0;
         }
         let one = self.most.min(if self.loops { 2.0 * self.least } else { 1.6 * self.spacing });
-        let even = (thickness / self.spacing - 0.1).round() as usize;
-        if thickness <= one { 1 } else { even.clamp(2, 64) }
+        if thickness <= one {
+            return 1;
+        }
+        if self.loops {
+            // Pairs, as few as there may be.
+            return 2 * ((thickness / (2.0 * self.most)).ceil() as usize).clamp(1, 32);
+        }
+        ((thickness / self.spacing - 0.1).round() as usize).clamp(2, 64)
     }
 
     /// A small loop for what has no middle line: as thick one way as the other.
@@ -133,12 +149,13 @@ impl Fill {
         thickness.iter_mut().for_each(|t| *t += 2.0 * self.hair);
         let (mut points, mut widths) = (Vec::new(), Vec::new());
         for (from, to, beads) in self.runs(chain, &thickness) {
-            if beads == 0 {
+            if beads == 0 || from == to {
                 continue;
             }
             let whole = chain.closed && from == 0 && to == thickness.len();
             widths.clear();
-            widths.extend(thickness[from..to].iter().map(|t| t / beads as f64));
+            let width = |t: &f64| (t / beads as f64).max(self.least);
+            widths.extend(thickness[from..to].iter().map(width));
             for bead in 0..beads {
                 let share = (2 * bead + 1) as f64 / (2 * beads) as f64;
                 points.clear();
@@ -174,7 +191,38 @@ impl Fill {
                 _ => out.push(run),
             }
         }
+        self.lengthen(chain, thickness, &mut out);
         out
+    }
+
+    /// Leads beads on into what is too thin for one, as far as it is half as thick as the thinnest and
+    /// no more than its volume: where a region ends in a point they then have all of it.
+    fn lengthen(&self, chain: &Chain, thickness: &[f64], runs: &mut [(usize, usize, usize)]) {
+        let (half, most) = (0.5 * self.least, MOST_LENGTHENED * self.spacing);
+        for i in 1..runs.len() {
+            let [before, after] = &mut runs[i - 1..=i] else { continue };
+            let thin = if before.2 == 0 { before.0..before.1 } else { after.0..after.1 };
+            let area: f64 = thin.map(|step| thickness[step] * chain.step(step)).sum();
+            let most = most.min(area / self.least);
+            let mut length = 0.0;
+            let mut leads_on = |step: usize| {
+                length += chain.step(step);
+                thickness[step] >= half && length <= most
+            };
+            match (before.2, after.2) {
+                (1, 0) => {
+                    let on = (after.0..after.1).take_while(|&step| leads_on(step)).count();
+                    before.1 += on;
+                    after.0 += on;
+                }
+                (0, 1) => {
+                    let on = (before.0..before.1).rev().take_while(|&step| leads_on(step)).count();
+                    before.1 -= on;
+                    after.0 -= on;
+                }
+                _ => {}
+            }
+        }
     }
 
     /// Cuts a line where its width has changed; writes the parts.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::region_shapes::*;
+use fgm_core::Ring;
 
 fn options() -> GapOptions {
     GapOptions { width: WIDTH, height: HEIGHT, min_width: 0.24, max_width: 0.64, loops: false }
@@ -134,4 +135,28 @@ fn borders_that_touch_themselves_are_not_filled_across() {
     let paths = gap_fill(&bow, &options());
     let cover = cover(&bow, &paths, 0.02);
     assert!(cover.covered > 0.9 && cover.outside < 0.02, "{cover:?} {paths:?}");
+}
+
+#[test]
+fn beads_lead_to_the_very_end_where_another_begins() {
+    for (loops, ends) in [(false, 0.25), (true, 0.0)] {
+        let gap = [rectangle(0.0, 0.0, 20.0, 0.5)];
+        let paths = gap_fill(&gap, &GapOptions { loops, ..options() });
+        for path in &paths {
+            let (first, last) = (path.points[0].x, path.points[path.points.len() - 1].x);
+            assert!((first.min(last) - ends).abs() < 0.01, "{path:?}");
+            assert!((first.max(last) - 20.0 + ends).abs() < 0.01, "{path:?}");
+        }
+    }
+}
+
+#[test]
+fn what_ends_in_a_point_has_its_volume() {
+    let side = |i: usize| Point2::new(0.05 * i as f64, 0.0025 * i as f64);
+    let low: Vec<Point2> = (0..80).map(side).collect();
+    let high = low.iter().rev().map(|p| Point2::new(p.x, 0.4 - p.y));
+    let spike = [Polygon::simple(Ring::new(low.iter().copied().chain(high).collect()))];
+    let paths = gap_fill(&spike, &GapOptions { loops: true, ..options() });
+    let share = volume(&paths) / (spike[0].area() * HEIGHT);
+    assert!((share - 1.0).abs() < 0.06, "{share}");
 }

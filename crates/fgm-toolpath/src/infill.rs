@@ -17,7 +17,10 @@ use crate::{
     GapOptions, Inset, Path,
     gap::fill_thin,
     gap_fill, region,
-    walls::{loops, peel::peel},
+    walls::{
+        loops,
+        peel::{HALF_LOOP, Peeling, peel},
+    },
 };
 pub use graded::infill_graded;
 pub use pattern::Pattern;
@@ -222,7 +225,8 @@ fn gaps(options: &InfillOptions) -> GapOptions {
 }
 
 fn solid_loops(region: &[Polygon], options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
-    let peel = peel(region, options.spacing(), usize::MAX, inset);
+    let peeling = Peeling { spacing: options.spacing(), half_loop: HALF_LOOP, most: usize::MAX };
+    let peel = peel(region, peeling, inset);
     let mut out = loops(&peel.loops, options.width, |_| options.role);
     out.extend(fill_thin(&peel.thin, &gaps(options), 0.0));
     out

@@ -7,8 +7,8 @@ use fgm_core::{ColorId, Point2};
 use crate::{Piece, order::MEETS};
 use sequence::sequence;
 
-/// Passes over a layer in which every route's place to begin is chosen anew.
-const PASSES: usize = 3;
+/// Passes over a layer in which every route's place to begin is chosen anew, among all its vertices.
+const PASSES: usize = 2;
 /// Routes of a colour that may change places with every other one; beyond that with their
 /// neighbours only.
 const MOST_SWAPS: usize = 12;
@@ -18,9 +18,8 @@ const MOST_SWAPS: usize = 12;
 /// A route is a round of pieces of one colour, as [`route`](crate::route) gives them: it may be
 /// begun at any vertex, and in either direction. Colour follows colour as in `colors`; others come
 /// last, by number. Inside a colour, and from one to the next, routes follow in the sequence of least
-/// travels. Then each is begun where the travels to it and on from it are
-/// shortest; where it has a travel of its own, that may be left out. `start` is where the nozzle is
-/// before the first piece, mm.
+/// travels, each begun where the travels to it and on from it are shortest; where it has a travel of
+/// its own, that may be left out. `start` is where the nozzle is before the first piece, mm.
 ///
 /// Every piece is kept, though one may be cut in two where its route begins. Empty pieces are
 /// dropped. The same routes in the same order give the same answer.
@@ -28,13 +27,7 @@ pub fn order_routes(routes: Vec<Vec<Piece>>, colors: &[ColorId], start: Point2) 
     let mut rounds: Vec<Round> = routes.into_iter().filter_map(Round::new).collect();
     let rank = |color: ColorId| colors.iter().position(|&c| c == color).unwrap_or(colors.len());
     rounds.sort_by_cached_key(|round| (rank(round.color()), round.color()));
-    let mut rounds = sequence(rounds, start);
-    let mut gates = vec![Gate::at(start); rounds.len()];
-    let mut at = start;
-    for (gate, round) in gates.iter_mut().zip(&rounds) {
-        *gate = round.gate(at, None);
-        at = gate.exit;
-    }
+    let (mut rounds, mut gates) = sequence(rounds, start);
     for _ in 0..PASSES {
         swap(&mut rounds, &mut gates, start);
         choose(&rounds, &mut gates, start);
@@ -112,6 +105,15 @@ impl Round {
         (self.pieces[piece].points[self.pieces[piece].points.len() - 1], next.points[0])
     }
 
+    /// After each of the travels, which is then left out.
+    fn travel_gates(&self) -> Vec<Gate> {
+        let gate = |&i: &usize| {
+            let (exit, enter) = self.travel(i);
+            Gate { begin: Begin::Travel(i, false), enter, exit, cost: -exit.distance(enter) }
+        };
+        self.travels.iter().map(gate).collect()
+    }
+
     /// The shortest way in from `from` and, if there is a next place, out to it.
     fn gate(&self, from: Point2, to: Option<Point2>) -> Gate {
         let onward = |p: Point2| to.map_or(0.0, |to| p.distance(to));
@@ -124,12 +126,9 @@ impl Round {
                 }
             }
         }
-        for &i in &self.travels {
-            let (exit, enter) = self.travel(i);
-            let cost = -exit.distance(enter);
-            let gate = Gate { begin: Begin::Travel(i, false), enter, exit, cost };
+        for gate in self.travel_gates() {
             for gate in [gate, gate.turned()] {
-                let way = gate.enter.distance(from) + onward(gate.exit) + cost;
+                let way = gate.enter.distance(from) + onward(gate.exit) + gate.cost;
                 if way < best.0 {
                     best = (way, gate);
                 }

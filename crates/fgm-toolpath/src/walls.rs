@@ -6,7 +6,7 @@ mod split;
 use fgm_core::{Polygon, Role, bead};
 
 use crate::{GapOptions, Inset, Path, gap::fill_thin};
-use peel::peel;
+use peel::{HALF_LOOP, Peeling, peel};
 
 /// How walls are made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,8 @@ pub fn walls(region: &[Polygon], options: &WallOptions, inset: &dyn Inset) -> Wa
     }
     // The beads' volume ends here; their round sides reach on to the outline.
     let border = inset.inset(region, 0.5 * (options.width - spacing));
-    let peel = peel(&border, spacing, options.count, inset);
+    let peeling = Peeling { spacing, half_loop: HALF_LOOP, most: options.count };
+    let peel = peel(&border, peeling, inset);
     let mut paths = loops(&peel.loops, options.width, |turn| {
         if turn == 0 { Role::OuterWall } else { Role::InnerWall }
     });

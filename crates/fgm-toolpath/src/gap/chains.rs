@@ -7,6 +7,9 @@ use fgm_core::Point2;
 
 use super::mesh::{BORDER, Mesh};
 
+/// The cosine of the angle below which an end is pointed, and not cut off straight: 53 degrees.
+const POINTED: f64 = 0.6;
+
 /// A stretch of a region between forks, crossed by gates.
 #[derive(Clone, Debug)]
 pub(super) struct Chain {
@@ -78,15 +81,17 @@ impl Chain {
     }
 }
 
-/// Splits a mesh into chains, the spurs into corners cut off.
-pub(super) fn chains(mesh: Mesh) -> Vec<Chain> {
-    let mut graph = Graph::new(mesh);
+/// Splits a mesh into chains, the spurs into corners cut off. At free ends they lead to the very
+/// end, or stop half the thickness before it.
+pub(super) fn chains(mesh: Mesh, to_the_end: bool) -> Vec<Chain> {
+    let mut graph = Graph::new(mesh, to_the_end);
     graph.prune();
     graph.chains()
 }
 
 struct Graph {
     mesh: Mesh,
+    to_the_end: bool,
     alive: Vec<bool>,
     degree: Vec<u8>,
     /// Area of each triangle, with that of the spurs cut off at it.
@@ -95,12 +100,13 @@ struct Graph {
 }
 
 impl Graph {
-    fn new(mesh: Mesh) -> Self {
+    fn new(mesh: Mesh, to_the_end: bool) -> Self {
         let count = |t: &super::mesh::Triangle| t.across.iter().filter(|&&n| n != BORDER).count();
         let degree = mesh.triangles.iter().map(|t| count(t) as u8).collect();
         let areas = mesh.triangles.iter().map(super::mesh::Triangle::area).collect();
         let n = mesh.triangles.len();
-        Self { mesh, alive: vec![true; n], degree, areas, seen: vec![false; n] }
+        let (alive, seen) = (vec![true; n], vec![false; n]);
+        Self { mesh, to_the_end, alive, degree, areas, seen }
     }
 
     /// The living triangle after `at`, coming from `before`, with the edge to it.
@@ -193,7 +199,7 @@ impl Graph {
     fn walk(&mut self, start: u32, edge: usize) -> Chain {
         let mut chain = Chain { gates: Vec::new(), areas: Vec::new(), closed: false };
         let (mut at, mut edge) = (start, edge);
-        self.open_end(start, edge, &mut chain);
+        self.open_fork(start, edge, &mut chain);
         loop {
             let triangle = &self.mesh.triangles[at as usize];
             chain.gates.push((triangle.corners[edge], triangle.corners[(edge + 1) % 3]));
@@ -206,7 +212,10 @@ impl Graph {
                 return chain;
             }
             if self.degree[next as usize] != 2 || self.seen[next as usize] {
-                self.close_end(next, at, &mut chain);
+                self.close_end(next, &mut chain);
+                if self.degree[start as usize] == 1 {
+                    self.open_end(start, &mut chain);
+                }
                 return chain;
             }
             self.seen[next as usize] = true;
@@ -216,45 +225,87 @@ impl Graph {
         }
     }
 
-    /// Begins a chain at an end or a fork.
-    fn open_end(&self, start: u32, edge: usize, chain: &mut Chain) {
+    /// Begins a chain at a fork.
+    fn open_fork(&self, start: u32, edge: usize, chain: &mut Chain) {
         let triangle = &self.mesh.triangles[start as usize];
         let (right, left) = (triangle.corners[edge], triangle.corners[(edge + 1) % 3]);
-        if let Some((gate, area)) = self.end_gate(start, right, left) {
+        if self.degree[start as usize] == 3 {
+            let (gate, area) = self.fork_gate(start, right, left);
             chain.gates.push(gate);
             chain.areas.push(area);
         }
     }
 
-    fn close_end(&self, end: u32, from: u32, chain: &mut Chain) {
-        let triangle = &self.mesh.triangles[end as usize];
-        let Some(edge) = triangle.edge_to(from) else { return };
-        // Seen from the other side, left and right change places.
-        let (left, right) = (triangle.corners[edge], triangle.corners[(edge + 1) % 3]);
-        if let Some((gate, area)) = self.end_gate(end, right, left) {
-            chain.areas.push(area);
+    /// Leads a chain to the fork or the free end after its last gate.
+    fn close_end(&self, end: u32, chain: &mut Chain) {
+        let Some(&(right, left)) = chain.gates.last() else { return };
+        let found = if self.degree[end as usize] == 3 {
+            Some(self.fork_gate(end, right, left))
+        } else {
+            let before = chain.gates.len().checked_sub(2).map(|i| chain.middle(i));
+            self.free_gate(end, right, left, before)
+        };
+        if let Some((gate, area)) = found {
             chain.gates.push(gate);
+            chain.areas.push(area);
         }
     }
 
-    /// One more gate where a chain meets a fork or runs out, and the area up to it.
-    fn end_gate(&self, end: u32, right: Point2, left: Point2) -> Option<((Point2, Point2), f64)> {
+    /// Leads a chain to the free end before its first gate.
+    fn open_end(&self, start: u32, chain: &mut Chain) {
+        let Some(&(right, left)) = chain.gates.first() else { return };
+        let after = (chain.gates.len() > 1).then(|| chain.middle(1));
+        // Seen the other way, left and right change places.
+        if let Some(((left, right), area)) = self.free_gate(start, left, right, after) {
+            chain.gates.insert(0, (right, left));
+            chain.areas.insert(0, area);
+        }
+    }
+
+    /// The gate in the middle of a fork, and the area up to it.
+    fn fork_gate(&self, fork: u32, right: Point2, left: Point2) -> ((Point2, Point2), f64) {
+        let shift = self.mesh.triangles[fork as usize].center() - (right + left) * 0.5;
+        ((right + shift, left + shift), self.areas[fork as usize] / 3.0)
+    }
+
+    /// The gate at a free end, and the area up to it, seen from the last gate; `before` is the
+    /// middle of the one before that.
+    fn free_gate(
+        &self,
+        end: u32,
+        right: Point2,
+        left: Point2,
+        before: Option<Point2>,
+    ) -> Option<((Point2, Point2), f64)> {
         let triangle = &self.mesh.triangles[end as usize];
-        let across = right.distance(left);
-        let middle = (right + left) * 0.5;
+        let &tip = triangle.corners.iter().find(|&&c| c != right && c != left)?;
+        let (across, middle) = (right.distance(left), (right + left) * 0.5);
         let area = self.areas[end as usize];
-        if self.degree[end as usize] == 3 {
-            let shift = triangle.center() - middle;
-            return Some(((right + shift, left + shift), area / 3.0));
+        let (to_right, to_left) = ((right - tip).try_normalize()?, (left - tip).try_normalize()?);
+        let (gate, area) = if to_right.dot(to_left) < POINTED {
+            // A blunt end: one of the two edges beyond the gate is a side, the other the end.
+            let ends_right = match before {
+                Some(before) => {
+                    let ahead = middle - before;
+                    to_right.dot(ahead).abs() < to_left.dot(ahead).abs()
+                }
+                None => tip.distance_squared(right) < tip.distance_squared(left),
+            };
+            (if ends_right { (right, tip) } else { (tip, left) }, area)
+        } else {
+            let height = 2.0 * triangle.area() / across.max(1e-9);
+            let depth = (area / across.max(1e-9)).min(height);
+            let shift = (tip - middle).normalize_or_zero() * depth;
+            ((right + shift, left + shift), across * depth)
+        };
+        if self.to_the_end {
+            return Some((gate, area));
         }
-        // A free end: as far as the area carries, less the half bead that goes beyond.
-        let apex = triangle.corners.iter().find(|&&c| c != right && c != left)?;
-        let height = 2.0 * triangle.area() / across.max(1e-9);
-        let depth = (area / across.max(1e-9)).min(height) - 0.5 * across;
-        if depth < 0.1 * across {
-            return None;
-        }
-        let shift = (*apex - middle).normalize_or_zero() * depth;
-        Some(((right + shift, left + shift), across * depth))
+        let length = middle.distance((gate.0 + gate.1) * 0.5);
+        let thickness = gate.0.distance(gate.1);
+        let share = 1.0 - 0.5 * thickness / length.max(1e-9);
+        let part = |from: Point2, to: Point2| from + (to - from) * share;
+        let worth = share * length >= 0.1 * thickness;
+        worth.then(|| ((part(right, gate.0), part(left, gate.1)), area * share))
     }
 }

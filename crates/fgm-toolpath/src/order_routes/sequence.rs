@@ -1,171 +1,171 @@
-//! Which route follows which, inside every colour and from colour to colour.
+//! Which route follows which, inside every colour and from colour to colour, and where each is
+//! begun.
 
 use std::ops::Range;
 
 use fgm_core::Point2;
 
-use super::Round;
+use super::{Begin, Gate, Round};
 
-/// Routes of a colour whose sequence is looked for among all; more are taken nearest first.
-const MOST_EXACT: usize = 8;
-/// Vertices by which the distance between routes is taken.
-const MOST_SAMPLES: usize = 32;
+/// Routes of a colour of which every sequence is gone through; more are taken nearest first.
+const MOST_EXACT: usize = 5;
+/// Vertices of a route at which it may be begun, as far as the sequence is concerned.
+const MOST_STOPS: usize = 24;
+/// Travels of its own that a route may be begun after or before, the longest.
+const MOST_TRAVELS: usize = 4;
 
-/// Puts the routes of each colour into the sequence of least travels, routes taken to be entered
-/// and left where they are nearest to their neighbours.
+/// Puts the routes of each colour into the sequence of least travels, with the place to begin each.
 ///
-/// A colour's routes are gone through in every sequence (Held and Karp, 1962), and the colours
-/// chained by the routes they begin and end with.
-pub(super) fn sequence(rounds: Vec<Round>, start: Point2) -> Vec<Round> {
-    let mut groups: Vec<Range<usize>> = Vec::new();
-    for (i, round) in rounds.iter().enumerate() {
-        match groups.last_mut() {
-            Some(group) if rounds[group.start].color() == round.color() => group.end = i + 1,
-            _ => groups.push(i..i + 1),
-        }
+/// A route is left where it is begun, but for travels of its own. So the state of the search is the
+/// set of routes printed, the last of them and where it was left (Held and Karp, 1962, with places):
+/// colour by colour, the best way to every place a colour may end at.
+pub(super) fn sequence(rounds: Vec<Round>, start: Point2) -> (Vec<Round>, Vec<Gate>) {
+    let mut search = Search::new(&rounds, start);
+    let mut ends = vec![0..1];
+    let mut first = 0;
+    while first < rounds.len() {
+        let color = rounds[first].color();
+        let count = rounds[first..].iter().take_while(|round| round.color() == color).count();
+        let group = first..first + count;
+        ends = if count <= MOST_EXACT {
+            search.exact(&ends, group)
+        } else {
+            search.nearest_first(&ends, group)
+        };
+        first += count;
     }
-    let samples: Vec<Vec<Point2>> = rounds.iter().map(samples).collect();
-    let mut chain = Chain { samples: &samples, start, stages: Vec::new() };
-    groups.into_iter().for_each(|group| chain.add(group));
-    let order = chain.finish();
+    let order = search.best(&ends);
     let mut rounds: Vec<Option<Round>> = rounds.into_iter().map(Some).collect();
-    order.into_iter().filter_map(|i| rounds[i].take()).collect()
+    order.into_iter().filter_map(|(i, gate)| Some((rounds[i].take()?, gate))).unzip()
 }
 
-/// Vertices all along a route.
-fn samples(round: &Round) -> Vec<Point2> {
+/// Where a route may be begun and left.
+fn stops(round: &Round) -> Vec<Gate> {
     let count: usize = round.pieces.iter().map(|piece| piece.points.len()).sum();
-    let points = round.pieces.iter().flat_map(|piece| piece.points.iter().copied());
-    points.step_by(count.div_ceil(MOST_SAMPLES).max(1)).collect()
+    let points = round.pieces.iter().enumerate().flat_map(|(i, piece)| {
+        piece.points.iter().enumerate().map(move |(j, &p)| (Begin::Vertex(i, j), p))
+    });
+    let at = |(begin, p)| Gate { begin, ..Gate::at(p) };
+    let mut out: Vec<Gate> = points.step_by(count.div_ceil(MOST_STOPS).max(1)).map(at).collect();
+    let mut travels = round.travel_gates();
+    travels.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    travels.truncate(MOST_TRAVELS);
+    out.extend(travels.into_iter().flat_map(|gate| [gate, gate.turned()]));
+    out
 }
 
-fn distance(a: &[Point2], b: &[Point2]) -> f64 {
-    let least = |p: Point2| b.iter().map(|q| p.distance_squared(*q)).fold(f64::INFINITY, f64::min);
-    a.iter().map(|&p| least(p)).fold(f64::INFINITY, f64::min).sqrt()
-}
-
-/// The colours so far, with the best way to end with each of their routes.
-struct Chain<'a> {
-    samples: &'a [Vec<Point2>],
-    start: Point2,
-    stages: Vec<Stage>,
-}
-
-struct Stage {
-    first: usize,
-    /// For each route, the best way that ends with it.
-    ways: Vec<Way>,
-}
-
-/// The routes of a colour in sequence.
-#[derive(Clone)]
-struct Way {
+/// A route printed, and how one came to that.
+#[derive(Clone, Copy, Debug)]
+struct Node {
     cost: f64,
-    /// Which way of the stage before it follows.
-    after: usize,
-    routes: Vec<usize>,
+    exit: Point2,
+    before: u32,
+    /// The route, and which of its stops.
+    round: u32,
+    stop: u32,
 }
 
-impl Chain<'_> {
-    fn add(&mut self, group: Range<usize>) {
-        let samples = &self.samples[group.clone()];
-        let count = samples.len();
-        // What it costs to begin with each route, and after which way.
-        let begin: Vec<(f64, usize)> = samples.iter().map(|route| self.begin(route)).collect();
-        let mut apart = vec![0.0; count * count];
-        for i in 0..count {
-            for j in 0..i {
-                let d = distance(&samples[i], &samples[j]);
-                (apart[i * count + j], apart[j * count + i]) = (d, d);
+struct Search {
+    stops: Vec<Vec<Gate>>,
+    /// The first stands for the beginning.
+    nodes: Vec<Node>,
+}
+
+/// The nodes of all stops of a route.
+type Nodes = Range<usize>;
+
+impl Search {
+    fn new(rounds: &[Round], start: Point2) -> Self {
+        let begin = Node { cost: 0.0, exit: start, before: 0, round: u32::MAX, stop: 0 };
+        Self { stops: rounds.iter().map(stops).collect(), nodes: vec![begin] }
+    }
+
+    /// Prints a route after the best of the nodes `before`, at each of its stops.
+    fn extend<'a>(
+        &mut self,
+        before: impl Iterator<Item = &'a Nodes> + Clone,
+        round: usize,
+    ) -> Nodes {
+        let first = self.nodes.len();
+        for (number, stop) in (0..).zip(&self.stops[round]) {
+            let mut best = (f64::INFINITY, 0);
+            for nodes in before.clone() {
+                for (i, node) in nodes.clone().zip(&self.nodes[nodes.clone()]) {
+                    if node.cost < best.0 {
+                        let cost = node.cost + node.exit.distance(stop.enter);
+                        if cost < best.0 {
+                            best = (cost, i as u32);
+                        }
+                    }
+                }
+            }
+            self.nodes.push(Node {
+                cost: best.0 + stop.cost,
+                exit: stop.exit,
+                before: best.1,
+                round: round as u32,
+                stop: number,
+            });
+        }
+        first..self.nodes.len()
+    }
+
+    /// The best ways to end with each of a colour's routes.
+    fn exact(&mut self, before: &[Nodes], group: Range<usize>) -> Vec<Nodes> {
+        let count = group.len();
+        let whole = (1 << count) - 1;
+        let mut table: Vec<Nodes> = vec![0..0; count << count];
+        for set in 1..=whole {
+            for last in (0..count).filter(|i| set >> i & 1 == 1) {
+                let rest = set & !(1 << last);
+                let round = group.start + last;
+                table[set * count + last] = if rest == 0 {
+                    self.extend(before.iter(), round)
+                } else {
+                    let others = (0..count).filter(|i| rest >> i & 1 == 1);
+                    self.extend(others.map(|i| &table[rest * count + i]), round)
+                };
             }
         }
-        let ways = if count <= MOST_EXACT {
-            exact(count, &apart, &begin)
-        } else {
-            vec![nearest_first(count, &apart, &begin)]
-        };
-        self.stages.push(Stage { first: group.start, ways });
+        table.split_off(whole * count)
     }
 
-    fn begin(&self, route: &[Point2]) -> (f64, usize) {
-        let Some(stage) = self.stages.last() else {
-            return (distance(&[self.start], route), 0);
-        };
-        let ways = stage.ways.iter().enumerate().filter_map(|(k, way)| {
-            let last = stage.first + way.routes.last()?;
-            Some((way.cost + distance(&self.samples[last], route), k))
-        });
-        ways.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0))
+    /// Each route the nearest to the one before.
+    fn nearest_first(&mut self, before: &[Nodes], group: Range<usize>) -> Vec<Nodes> {
+        let mut left: Vec<usize> = group.collect();
+        let mut ends = before.to_vec();
+        while !left.is_empty() {
+            let from: Vec<Point2> = self.exits(&ends).collect();
+            let near = |round: usize| {
+                let places = self.stops[round].iter().map(|stop| stop.enter);
+                let squares = places.flat_map(|p| from.iter().map(move |q| p.distance_squared(*q)));
+                squares.fold(f64::INFINITY, f64::min)
+            };
+            let distances = left.iter().map(|&round| near(round)).enumerate();
+            let Some((k, _)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
+            let round = left.remove(k);
+            ends = vec![self.extend(ends.iter(), round)];
+        }
+        ends
     }
 
-    fn finish(self) -> Vec<usize> {
-        let mut at = self.stages.last().and_then(|stage| {
-            let ways = stage.ways.iter().enumerate();
-            ways.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost)).map(|(k, _)| k)
-        });
-        let mut back = Vec::with_capacity(self.samples.len());
-        for stage in self.stages.iter().rev() {
-            let Some(way) = at.and_then(|k| stage.ways.get(k)) else { break };
-            back.extend(way.routes.iter().rev().map(|route| stage.first + route));
-            at = Some(way.after);
+    fn exits(&self, nodes: &[Nodes]) -> impl Iterator<Item = Point2> {
+        nodes.iter().flat_map(|nodes| self.nodes[nodes.clone()].iter().map(|node| node.exit))
+    }
+
+    /// The routes and where they are begun, on the best way to one of the nodes.
+    fn best(&self, ends: &[Nodes]) -> Vec<(usize, Gate)> {
+        let nodes = ends.iter().cloned().flatten();
+        let cost = |i: &usize| self.nodes[*i].cost;
+        let mut at = nodes.min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(0);
+        let mut back = Vec::with_capacity(self.stops.len());
+        while at != 0 {
+            let node = self.nodes[at];
+            let round = node.round as usize;
+            back.push((round, self.stops[round][node.stop as usize]));
+            at = node.before as usize;
         }
         back.reverse();
         back
     }
-}
-
-/// The best way to end with each of a few routes.
-fn exact(count: usize, apart: &[f64], begin: &[(f64, usize)]) -> Vec<Way> {
-    // By the set of routes gone through and the last of them: the cost, and the one before.
-    let mut best = vec![(f64::INFINITY, usize::MAX); count << count];
-    for (i, &(cost, _)) in begin.iter().enumerate() {
-        best[(1 << i) * count + i] = (cost, usize::MAX);
-    }
-    for set in 1..1usize << count {
-        for last in (0..count).filter(|i| set >> i & 1 == 1) {
-            let cost = best[set * count + last].0;
-            for next in (0..count).filter(|i| set >> i & 1 == 0) {
-                let to = &mut best[(set | 1 << next) * count + next];
-                let way = cost + apart[last * count + next];
-                if way < to.0 {
-                    *to = (way, last);
-                }
-            }
-        }
-    }
-    let whole = (1 << count) - 1;
-    let way = |end: usize| {
-        let (mut set, mut last, mut routes) = (whole, end, Vec::with_capacity(count));
-        loop {
-            routes.push(last);
-            let before = best[set * count + last].1;
-            set &= !(1 << last);
-            if before == usize::MAX {
-                break;
-            }
-            last = before;
-        }
-        routes.reverse();
-        Way { cost: best[whole * count + end].0, after: begin[last].1, routes }
-    };
-    (0..count).map(way).collect()
-}
-
-/// Many routes, each the nearest to the one before.
-fn nearest_first(count: usize, apart: &[f64], begin: &[(f64, usize)]) -> Way {
-    let first = (0..count).min_by(|&a, &b| begin[a].0.total_cmp(&begin[b].0)).unwrap_or(0);
-    let mut way = Way { cost: begin[first].0, after: begin[first].1, routes: vec![first] };
-    let mut left: Vec<usize> = (0..count).filter(|&i| i != first).collect();
-    let mut last = first;
-    while let Some((k, d)) = left
-        .iter()
-        .map(|&next| apart[last * count + next])
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-    {
-        last = left.remove(k);
-        way.cost += d;
-        way.routes.push(last);
-    }
-    way
 }

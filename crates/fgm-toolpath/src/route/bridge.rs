@@ -8,7 +8,7 @@ use super::web::{NONE, Place, TRAVEL, Web};
 const NEAR: f64 = 0.5;
 const FAR: f64 = 1.5;
 /// Loops shorter than this, in spacings, are not cut.
-const SHORTEST: f64 = 6.0;
+const SHORTEST: f64 = 4.0;
 /// Of the vertices where a line runs on, one in this many is asked: lines that run side by side do
 /// so for longer. Where it turns all are.
 const STRIDE: u32 = 4;

@@ -148,7 +148,7 @@ fn paired(strands: Vec<Strand>, spacing: f64) -> Vec<Strand> {
 
 /// Strands that may make a loop, with how far apart their ends are.
 fn pairs(strands: &[Strand], spacing: f64) -> Vec<(f64, usize, usize)> {
-    let far = 1.5 * spacing;
+    let far = 1.8 * spacing;
     let lengths: Vec<f64> = strands.iter().map(Strand::length).collect();
     let mut starts: Vec<(Point2, usize)> = Vec::with_capacity(2 * strands.len());
     for (i, strand) in strands.iter().enumerate() {
@@ -164,7 +164,7 @@ fn pairs(strands: &[Strand], spacing: f64) -> Vec<(f64, usize, usize)> {
                 continue;
             }
             let (near, other) = apart(&strands[s], &strands[t]);
-            if near.max(other) <= far && long > 2.0 * (near + other) {
+            if near.max(other) <= far && long > 1.2 * (near + other) {
                 out.push((near + other, s, t));
             }
         }

@@ -6,10 +6,11 @@ use fgm_core::Polygon;
 use super::split::split;
 use crate::{Inset, gap::shaved, inset::simplify, region};
 
-/// Half the thickness, in line spacings, below which a region takes no loop. A loop then leaves
-/// at least 0.6 spacings between its inner sides, room for a bead of the least width, and what
-/// takes no loop is at most 2.6 spacings thick, filled by one or two beads.
-const HALF_LOOP: f64 = 1.3;
+/// Half the thickness, in line spacings, below which a region takes no loop where one bead is to fit
+/// inside the last: the loop leaves at least 0.6 spacings between its inner sides, room for a bead
+/// of the least width, and what takes no loop is at most 2.6 spacings thick, filled by one or two
+/// beads.
+pub(crate) const HALF_LOOP: f64 = 1.3;
 /// Shares of that to try in turn: where sides run along at just this distance the cuts may not work
 /// out, and a little more or less settles it.
 const OTHERWISE: [f64; 4] = [1.0, 0.95, 1.06, 0.9];
@@ -33,11 +34,23 @@ pub(crate) struct Peel {
     pub(crate) rest: Vec<Polygon>,
 }
 
-/// Peels loops of beads `spacing` wide off a region: at most `most`, each half a spacing inside
-/// the border of what is left.
-pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn Inset) -> Peel {
+/// How loops are peeled off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Peeling {
+    /// Distance between loops, mm.
+    pub(crate) spacing: f64,
+    /// Half the thickness below which a region takes no loop, in spacings.
+    pub(crate) half_loop: f64,
+    /// The most loops.
+    pub(crate) most: usize,
+}
+
+/// Peels loops of beads a spacing wide off a region, each half a spacing inside the border of what
+/// is left.
+pub(crate) fn peel(region: &[Polygon], peeling: Peeling, inset: &dyn Inset) -> Peel {
+    let Peeling { spacing, half_loop, most } = peeling;
     let mut out = Peel::default();
-    if !(spacing > 0.0 && spacing.is_finite()) {
+    if !(spacing > 0.0 && spacing.is_finite() && half_loop >= 1.0) {
         return out;
     }
     let mut now = region.to_vec();
@@ -48,7 +61,7 @@ pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn In
         let mut loops = Vec::new();
         let mut next = Vec::new();
         for polygon in now {
-            step(&polygon, spacing, inset, &mut loops, &mut next, &mut out.thin);
+            step(&polygon, peeling, inset, &mut loops, &mut next, &mut out.thin);
         }
         if !loops.is_empty() {
             out.loops.push(loops);
@@ -61,13 +74,14 @@ pub(crate) fn peel(region: &[Polygon], spacing: f64, most: usize, inset: &dyn In
 
 fn step(
     polygon: &Polygon,
-    spacing: f64,
+    peeling: Peeling,
     inset: &dyn Inset,
     loops: &mut Vec<Polygon>,
     next: &mut Vec<Polygon>,
     thin: &mut Vec<Polygon>,
 ) {
-    let half = HALF_LOOP * spacing;
+    let spacing = peeling.spacing;
+    let half = peeling.half_loop * spacing;
     let Some(polygon) = simplify::polygon(polygon, SIMPLIFY) else { return };
     let splits = || OTHERWISE.iter().find_map(|share| split(&polygon, share * half));
     if let Some(split) = splits() {
@@ -80,7 +94,7 @@ fn step(
         thin.extend(split.thin.into_iter().filter(|p| p.area() > least));
         return;
     }
-    slow(polygon, spacing, inset, loops, next, thin);
+    slow(polygon, peeling, inset, loops, next, thin);
 }
 
 /// One loop of what is thick throughout; `clear` is how far that is still to be checked.
@@ -107,13 +121,14 @@ fn shell(
 /// The same by offsets and booleans alone, for borders that cuts cannot handle.
 fn slow(
     polygon: Polygon,
-    spacing: f64,
+    peeling: Peeling,
     inset: &dyn Inset,
     loops: &mut Vec<Polygon>,
     next: &mut Vec<Polygon>,
     thin: &mut Vec<Polygon>,
 ) {
-    let half = HALF_LOOP * spacing;
+    let spacing = peeling.spacing;
+    let half = peeling.half_loop * spacing;
     let polygon = [polygon];
     let mut core = inset.inset(&polygon, half);
     if region::area(&polygon) > 40.0 * spacing * spacing {
