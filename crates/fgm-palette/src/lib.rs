@@ -14,6 +14,7 @@
 //! | [`Palette::pure`] | one colour a material, unmixed; the greatest fraction wins |
 //! | [`Palette::with_overlap`] | a zipper: near a boundary, paths alternate between two colours |
 //! | [`Palette::band`] | mixture to colour, or to the two colours of an overlap |
+//! | [`Palette::band_within`] | the same where the overlap differs from place to place |
 //! | [`Palette::boundaries`], [`Palette::levels`] | where the band changes: what to contour |
 //! | [`Palette::order`] | the print order of a layer |
 //! | [`PaletteError`] | what cannot be, with the limit |
@@ -44,4 +45,4 @@ mod palette;
 mod path;
 
 pub use error::PaletteError;
-pub use palette::{Boundary, MAX_COLORS, Palette};
+pub use palette::{Boundary, MAX_COLORS, Measure, Palette};

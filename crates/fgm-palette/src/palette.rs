@@ -30,6 +30,26 @@ pub enum Boundary {
     },
 }
 
+/// What a palette's boundaries are levels of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// The fraction of a material, from 0.
+    Fraction {
+        /// The material.
+        material: usize,
+    },
+    /// By how much the fraction of material `a` exceeds that of `b`.
+    Difference {
+        /// A material, from 0.
+        a: usize,
+        /// Another.
+        b: usize,
+    },
+}
+
+/// The widest overlap, as a share of the width at which overlaps on either side of a band meet.
+const WIDEST: f64 = 0.98;
+
 /// Mixture space divided into colours, each of which stands for the mixtures of its cell by the
 /// state in the middle. See the [crate's documentation](crate) for the divisions there are.
 ///
@@ -180,12 +200,47 @@ impl Palette {
     /// colours overlap, near a common corner, two of them are taken. Fractions of materials that
     /// the palette does not have are left out of account.
     pub fn band(&self, mixture: &Mixture) -> Band {
+        let parts = |material: usize, fraction: f64| self.parts(material, fraction);
+        self.band_by(mixture, parts, |_, _| self.overlap)
+    }
+
+    /// As [`band`](Self::band), for a palette without an overlap of its own, where `half` says how
+    /// far on either side of a boundary colours overlap: by how much its measure differs from the
+    /// boundary's value, up to the [widest](Self::widest). For overlaps that are to be as wide
+    /// everywhere in space, not in the mixture.
+    pub fn band_within(&self, mixture: &Mixture, half: impl Fn(Measure) -> f64) -> Band {
+        let half = |measure: Measure| half(measure).clamp(0.0, self.widest(measure));
+        let parts = |material: usize, fraction: f64| {
+            let half = half(Measure::Fraction { material });
+            let passed =
+                |by: f64| self.levels[material].partition_point(|level| level + by <= fraction);
+            let (begun, over) = (passed(-half), passed(half));
+            (over as u16, begun > over)
+        };
+        self.band_by(mixture, parts, |a, b| half(Measure::Difference { a, b }))
+    }
+
+    /// The most that half an overlap can be, so that no three colours overlap in a band.
+    pub fn widest(&self, measure: Measure) -> f64 {
+        let whole = WIDEST * self.band_width();
+        match measure {
+            Measure::Fraction { .. } => 0.5 * whole,
+            Measure::Difference { .. } => whole,
+        }
+    }
+
+    fn band_by(
+        &self,
+        mixture: &Mixture,
+        parts: impl Fn(usize, f64) -> (u16, bool),
+        apart: impl Fn(usize, usize) -> f64,
+    ) -> Band {
         let mut fractions = [0.0; MAX_MATERIALS];
         let given = mixture.fractions().iter().take(self.materials);
         fractions.iter_mut().zip(given).for_each(|(slot, f)| *slot = *f);
         match &self.division {
-            Division::Cells { k, colors } => self.cell_band(&fractions, *k, colors),
-            Division::Greatest => self.greatest_band(&fractions[..self.materials]),
+            Division::Cells { k, colors } => self.cell_band(&fractions, *k, colors, parts),
+            Division::Greatest => greatest_band(&fractions[..self.materials], apart),
         }
     }
 
@@ -204,9 +259,10 @@ impl Palette {
         fractions: &[f64; MAX_MATERIALS],
         k: usize,
         colors: &[(Cell, ColorId)],
+        parts: impl Fn(usize, f64) -> (u16, bool),
     ) -> Band {
         if self.materials == 2 {
-            let (low, between) = self.parts(0, fractions[0]);
+            let (low, between) = parts(0, fractions[0]);
             return Band::overlap(ColorId(low), ColorId(low + u16::from(between)));
         }
         let color = |cell: &Cell| {
@@ -216,7 +272,7 @@ impl Palette {
         let mut low = [0; MAX_MATERIALS];
         let mut between = [false; MAX_MATERIALS];
         for i in 0..self.materials {
-            (low[i], between[i]) = self.parts(i, fractions[i]);
+            (low[i], between[i]) = parts(i, fractions[i]);
         }
         // Of the parts that lie between two values, so many take the upper one that the cell is
         // there; one more gives its neighbour.
@@ -246,19 +302,17 @@ impl Palette {
             (below as u16, false)
         }
     }
+}
 
-    fn greatest_band(&self, fractions: &[f64]) -> Band {
-        // Those that none exceeds by the overlap or more.
-        let greatest = fractions.iter().fold(0.0_f64, |a, b| a.max(*b));
-        let mut ids = fractions
-            .iter()
-            .zip((0..).map(ColorId))
-            .filter(|(f, _)| **f == greatest || greatest - **f < self.overlap)
-            .map(|(_, id)| id);
-        let first = ids.next().unwrap_or_default();
-        let second = if self.overlap > 0.0 { ids.next() } else { None };
-        Band::overlap(first, second.unwrap_or(first))
-    }
+/// The material of the greatest fraction, and the first that comes nearer to it than they are told
+/// to be apart.
+fn greatest_band(fractions: &[f64], apart: impl Fn(usize, usize) -> f64) -> Band {
+    let greatest = fractions.iter().fold(0.0_f64, |a, b| a.max(*b));
+    let most = fractions.iter().position(|f| *f == greatest).unwrap_or(0);
+    let near = |i: usize| i != most && greatest - fractions[i] < apart(most, i);
+    let mut ids = (0..fractions.len()).filter(|&i| i == most || near(i)).map(|i| ColorId(i as u16));
+    let first = ids.next().unwrap_or_default();
+    Band::overlap(first, ids.next().unwrap_or(first))
 }
 
 fn check(materials: usize) -> Result<(), PaletteError> {

@@ -203,6 +203,32 @@ fn sides(palette: &Palette, mixture: &Mixture) -> Vec<bool> {
 
 proptest! {
     #[test]
+    fn an_overlap_of_the_place_that_is_the_same_everywhere_is_the_palettes_own(
+        weights in prop::collection::vec(0.01..1.0f64, 2..5),
+        k in 1..5usize, pure: bool, share in 0.0..0.97f64,
+    ) {
+        let materials = weights.len();
+        let plain = if pure {
+            Palette::pure(materials).unwrap()
+        } else {
+            let mut counts = (1..=MAX_COLORS).filter_map(|n| Palette::new(materials, n).ok());
+            counts.nth(k).unwrap()
+        };
+        let overlap = share * plain.band_width();
+        let mixture = mixture(&weights);
+        let half = |measure| match measure {
+            Measure::Fraction { .. } => 0.5 * overlap,
+            Measure::Difference { .. } => overlap,
+        };
+        let found = plain.band_within(&mixture, half);
+        prop_assert_eq!(found, plain.clone().with_overlap(overlap).unwrap().band(&mixture));
+        // However far is asked for, no more than two colours overlap.
+        let wide = plain.band_within(&mixture, |_| f64::INFINITY);
+        let most = plain.clone().with_overlap(0.98 * plain.band_width()).unwrap();
+        prop_assert_eq!(wide, most.band(&mixture));
+    }
+
+    #[test]
     fn mixtures_lie_within_half_a_band_of_their_colour(
         weights in prop::collection::vec(prop_oneof![0.0..1.0f64, Just(0.0), Just(0.5)], 8),
         which in any::<prop::sample::Index>(),

@@ -22,7 +22,7 @@
 //! | borders | [`Inset`] (the seam), [`ClipperInset`] (its default), [`region`] (booleans) |
 //! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
-//! | colour | [`section`] |
+//! | colour | [`section`]; [`seam_length`] tells how far colours touch |
 //! | over air | [`Support`], [`mark_overhangs`], [`bridges`] |
 //! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`] |
 //! | beside the part | [`Towers`], [`skirt`], [`brim`] |
@@ -79,6 +79,7 @@ pub mod region;
 #[cfg(test)]
 mod region_shapes;
 mod route;
+mod seam;
 mod section;
 mod section_runs;
 mod skins;
@@ -105,6 +106,7 @@ pub use overhang::mark_overhangs;
 pub use path::{Path, Piece};
 pub use plan::{LayerPlan, LayerStats, Motions, SHORT_PIECE};
 pub use route::route;
+pub use seam::seam_length;
 pub use section::{SectionOptions, section};
 pub use skins::{Skins, skins, skins_with};
 pub use skirt::{SkirtOptions, skirt};

@@ -3,12 +3,11 @@
 use std::{borrow::Cow, sync::OnceLock};
 
 use fgm_contour::{ContourOptions, isolines};
-use fgm_core::{Bounds2, MaterialField, Point2, Polygon, Polyline};
+use fgm_core::{Bounds2, Point2, Polygon, Polyline};
 use fgm_field::Design;
-use fgm_palette::Palette;
 
 use crate::{
-    boundaries::{BoundaryField, boundary_fields},
+    boundaries::{Bands, BoundaryField},
     error::SliceError,
 };
 
@@ -23,8 +22,7 @@ pub(crate) struct BoundaryLine {
 /// The palette's boundaries in all layers of a design: traced in each, or once where the material
 /// is the same at every height.
 pub(crate) struct BoundaryLines<'a> {
-    material: &'a dyn MaterialField,
-    palette: &'a Palette,
+    bands: Bands<'a>,
     options: ContourOptions,
     /// What the lines of all layers were traced in.
     window: Bounds2,
@@ -33,13 +31,13 @@ pub(crate) struct BoundaryLines<'a> {
 }
 
 impl<'a> BoundaryLines<'a> {
-    pub(crate) fn new(design: &'a Design, palette: &'a Palette, options: ContourOptions) -> Self {
-        let material = design.fractions.as_ref();
+    pub(crate) fn new(design: &Design, bands: Bands<'a>, options: ContourOptions) -> Self {
+        let material = bands.material;
         let varies = (0..material.materials()).any(|i| material.fraction(i).varies_with_z());
         // The outline of a layer may reach past the design's bounds by a cell or two.
         let window = design.bounds.xy().grown(4.0 * options.cell);
         let shared = (!varies && window.is_finite()).then(OnceLock::new);
-        Self { material, palette, options, window, shared }
+        Self { bands, options, window, shared }
     }
 
     /// The lines that may meet `region`, a layer's part at height `z`.
@@ -71,7 +69,7 @@ impl<'a> BoundaryLines<'a> {
             let bounds = Bounds2::of(points.iter().copied());
             lines.push(BoundaryLine { points, closed, bounds });
         };
-        for BoundaryField { field, levels } in boundary_fields(self.material, self.palette, z) {
+        for BoundaryField { field, levels } in self.bands.boundary_fields(z) {
             for level in isolines(field.as_ref(), window, &levels, &self.options)? {
                 level.rings.into_iter().for_each(|ring| add(ring.points, true));
                 level.lines.into_iter().for_each(|Polyline { points }| add(points, false));
@@ -87,8 +85,10 @@ mod tests {
 
     fn lines(source: &str, region: [f64; 4], z: f64) -> (bool, usize) {
         let loaded = fgm_design::parse_vcad(source, ".".as_ref(), &Default::default()).unwrap();
-        let palette = Palette::new(2, 4).unwrap();
-        let lines = BoundaryLines::new(&loaded.design, &palette, ContourOptions::default());
+        let palette = fgm_palette::Palette::new(2, 4).unwrap();
+        let material = loaded.design.fractions.as_ref();
+        let bands = Bands::new(material, &palette, crate::Zipper::NONE);
+        let lines = BoundaryLines::new(&loaded.design, bands, ContourOptions::default());
         let [x, y, u, v] = region;
         let corners = [(x, y), (u, y), (u, v), (x, v)].map(|(x, y)| Point2::new(x, y));
         let region = [Polygon::simple(fgm_core::Ring::new(corners.into()))];

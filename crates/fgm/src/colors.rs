@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use fgm_core::{Bounds2, ColorId, Field, Interval, MAX_MATERIALS, Mixture, Point3, Role};
 use fgm_field::Design;
-use fgm_palette::Palette;
+use fgm_palette::{Measure, Palette};
 use fgm_toolpath::Piece;
 
 use crate::{
+    boundaries::Bands,
     choice::{Strategy, Zipper},
     error::SliceError,
     layers::Layers,
@@ -20,15 +21,16 @@ use crate::{
 const DEFAULT_COLORS: usize = 16;
 /// The most colours that `auto` tries.
 const MOST_AUTO_COLORS: usize = 64;
+
 /// Step of the differences that measure a gradient, mm.
 const STEP: f64 = 1e-3;
 
-/// A palette of `count` colours for the design, with the zipper that the settings ask for.
+/// A palette of `count` colours for the design, with the zipper that the settings ask for
+/// where it is a share of the gradient.
 pub(crate) fn palette(
     count: usize,
     design: &Design,
     settings: &Settings,
-    outliner: &Outliner<'_>,
 ) -> Result<Palette, SliceError> {
     let materials = design.materials.len();
     // As many colours as three or more materials: one head a material, nothing mixed.
@@ -37,22 +39,41 @@ pub(crate) fn palette(
     } else {
         Palette::new(materials, count)?
     };
-    let share = match settings.palette.zipper {
-        Zipper::Share(share) => share,
-        Zipper::Length(0.0) => 0.0,
-        Zipper::Length(length) => {
-            let gradients = gradients(design, outliner)?;
-            let mean = gradients.iter().sum::<f64>() / gradients.len().max(1) as f64;
-            if mean <= 0.0 || !mean.is_finite() {
-                return Err(SliceError::FlatZipper { length });
-            }
-            length * mean
+    match settings.palette.zipper {
+        Zipper::Share(share) if settings.slice.strategy == Strategy::Sectioned => {
+            Ok(palette.with_overlap(share)?)
         }
-    };
-    if share == 0.0 || settings.slice.strategy == Strategy::Against {
-        return Ok(palette);
+        _ => Ok(palette),
     }
-    Ok(palette.with_overlap(share)?)
+}
+
+/// That a zipper's length is more than a band in parts of the design, where it is narrowed.
+///
+/// # Errors
+/// [`SliceError::FlatZipper`] where there is no gradient that a length could be along.
+pub(crate) fn narrowed(
+    palette: &Palette,
+    design: &Design,
+    settings: &Settings,
+    outliner: &Outliner<'_>,
+) -> Result<Option<String>, SliceError> {
+    let Zipper::Length(length) = settings.palette.zipper else { return Ok(None) };
+    if length <= 0.0 || settings.slice.strategy == Strategy::Against {
+        return Ok(None);
+    }
+    let steep = gradients(design, outliner)?;
+    if steep.iter().all(|slope| *slope <= 0.0) {
+        return Err(SliceError::FlatZipper { length });
+    }
+    let widest = 2.0 * palette.widest(Measure::Fraction { material: 0 });
+    let narrowed = steep.iter().filter(|slope| length * **slope > widest).count();
+    Ok((narrowed > 0).then(|| {
+        let share = 100.0 * narrowed as f64 / steep.len().max(1) as f64;
+        format!(
+            "the zipper of {length} mm is wider than a colour's band in {share:.0} % of the part, \
+             and as wide as the band there (fewer colours make wider bands)"
+        )
+    }))
 }
 
 /// The colours of a palette.
@@ -96,24 +117,24 @@ pub(crate) fn shown(design: &Design, mixture: &Mixture) -> [u8; 3] {
 /// Which colours may occur in each layer of `range`.
 ///
 /// From the bounds of the fractions over whole layers: never too few, often too many.
-pub(crate) fn occurring(
-    design: &Design,
-    palette: &Palette,
+pub(crate) fn occurring<'a>(
+    design: &'a Design,
+    bands: Bands<'a>,
     window: Bounds2,
     layers: Layers,
     range: Range<usize>,
-) -> impl Iterator<Item = Vec<bool>> {
+) -> impl Iterator<Item = Vec<bool>> + use<'a> {
+    let palette = bands.palette;
     // Half a band about a state is its band; the overlap of a zipper reaches beyond.
-    let reach = palette.half_band() + palette.overlap() + 1e-9;
+    let reach = palette.half_band() + bands.reach() + 1e-9;
     range.map(move |index| {
         let cut = layers.get(index).cut;
         let bounds: Vec<Interval> = (0..design.materials.len())
             .map(|m| design.fractions.fraction(m).at_z(cut).bounds(&window))
             .collect();
         if bounds.iter().all(|b| b.lo == b.hi)
-            && let Ok(mixture) = design.fractions.mixture(window.center().extend(cut))
+            && let Ok(band) = bands.at(window.center().extend(cut))
         {
-            let band = palette.band(&mixture);
             return ids(palette).map(|id| id == band.first || id == band.second).collect();
         }
         let occurs = |color: ColorId| {

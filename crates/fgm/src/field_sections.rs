@@ -3,18 +3,16 @@
 use std::sync::OnceLock;
 
 use fgm_contour::{Crossing, Crossings};
-use fgm_core::{Band, MaterialError, MaterialField, Point2, Sectioner, Span, point_at};
-use fgm_palette::Palette;
+use fgm_core::{Band, MaterialError, Point2, Sectioner, Span, point_at};
 
-use crate::boundaries::{BoundaryField, boundary_fields};
+use crate::boundaries::{Bands, BoundaryField};
 
 /// Cuts paths where they cross the palette's boundaries, found along the path by root finding.
 ///
 /// The same spans as those by faces, whose borders are these boundaries traced and simplified; but
 /// no contour is traced and nothing arranged, and the ends lie on the true boundary.
 pub(crate) struct FieldSections<'a> {
-    material: &'a dyn MaterialField,
-    palette: &'a Palette,
+    bands: Bands<'a>,
     z: f64,
     boundaries: Vec<BoundaryField<'a>>,
     step: f64,
@@ -26,15 +24,9 @@ pub(crate) struct FieldSections<'a> {
 impl<'a> FieldSections<'a> {
     /// Sections at height `z`: the field is looked at every `step` mm, and boundaries are found to
     /// `tolerance` mm.
-    pub(crate) fn new(
-        material: &'a dyn MaterialField,
-        palette: &'a Palette,
-        z: f64,
-        step: f64,
-        tolerance: f64,
-    ) -> Self {
-        let boundaries = boundary_fields(material, palette, z);
-        Self { material, palette, z, boundaries, step, tolerance, failure: OnceLock::new() }
+    pub(crate) fn new(bands: Bands<'a>, z: f64, step: f64, tolerance: f64) -> Self {
+        let boundaries = bands.boundary_fields(z);
+        Self { bands, z, boundaries, step, tolerance, failure: OnceLock::new() }
     }
 
     /// Whether all that was sectioned has a mixture.
@@ -65,8 +57,8 @@ impl<'a> FieldSections<'a> {
     }
 
     fn band_at(&self, p: Point2) -> Option<Band> {
-        match self.material.mixture(p.extend(self.z)) {
-            Ok(mixture) => Some(self.palette.band(&mixture)),
+        match self.bands.at(p.extend(self.z)) {
+            Ok(band) => Some(band),
             Err(error) => {
                 self.failure.get_or_init(|| error);
                 None
@@ -100,6 +92,8 @@ impl Sectioner<Band> for FieldSections<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Zipper;
+    use fgm_palette::Palette;
 
     #[test]
     fn a_line_that_touches_a_boundary_in_its_middle_keeps_its_colour() {
@@ -107,7 +101,8 @@ mod tests {
         let loaded = fgm_design::parse_vcad(source, ".".as_ref(), &Default::default()).unwrap();
         let material = loaded.design.fractions.as_ref();
         let palette = Palette::new(2, 4).unwrap();
-        let sections = FieldSections::new(material, &palette, 0.0, 0.5, 1e-6);
+        let bands = Bands::new(material, &palette, Zipper::NONE);
+        let sections = FieldSections::new(bands, 0.0, 0.5, 1e-6);
         let line = [Point2::new(-8.0, 0.0), Point2::new(8.0, 0.0)];
         let mut spans = Vec::new();
         sections.section(&line, &mut spans);

@@ -35,7 +35,7 @@ impl GradedLayer {
         region: &[Polygon],
         seconds: &mut StageSeconds,
     ) -> Result<Self, SliceError> {
-        let (z, palette) = (layer.cut, job.palette);
+        let z = layer.cut;
         let material = job.design.fractions.as_ref();
         let boundaries = timed(&mut seconds.contour, || {
             check_material(region, z, material)?;
@@ -50,8 +50,7 @@ impl GradedLayer {
                     if !region.iter().any(|polygon| polygon.contains(inside)) {
                         return Ok(None);
                     }
-                    let mixture = material.mixture(inside.extend(z))?;
-                    Ok(Some(palette.band(&mixture)))
+                    Ok(Some(job.bands.at(inside.extend(z))?))
                 })
                 .collect::<Result<_, SliceError>>()?;
             Ok(Self { arrangement, bands })

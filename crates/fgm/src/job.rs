@@ -9,6 +9,7 @@ use fgm_toolpath::{
 
 use crate::{
     against,
+    boundaries::Bands,
     boundary_lines::BoundaryLines,
     choice::Strategy,
     colors,
@@ -27,6 +28,9 @@ pub(crate) struct Job<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) design: &'a Design,
     pub(crate) palette: &'a Palette,
+    pub(crate) bands: Bands<'a>,
+    /// The palette without a zipper, where there is one, to compare with.
+    pub(crate) straight: Option<Palette>,
     pub(crate) layers: Layers,
     pub(crate) outlines: OutlineWindow<'a>,
     /// How isolines of the material are traced.
@@ -39,6 +43,14 @@ pub(crate) struct Job<'a> {
     pub(crate) hidden_purges: Option<Needs>,
     /// The layer that lies on the bed, from 0.
     pub(crate) first: usize,
+}
+
+/// Lengths over which colours touch, mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Seams {
+    pub(crate) zipped: f64,
+    /// Without the zipper.
+    pub(crate) straight: f64,
 }
 
 /// A layer ready to be written.
@@ -54,6 +66,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) short: usize,
     /// Faces of one colour.
     pub(crate) faces: usize,
+    /// How long the seams between colours are, where a zipper makes them longer.
+    pub(crate) seams: Seams,
     /// Volume of the part in this layer, mm³.
     pub(crate) model_mm3: f64,
     pub(crate) seconds: StageSeconds,
@@ -83,11 +97,12 @@ impl Job<'_> {
         let below = timed(&mut seconds.contour, || self.below(layer))?;
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
         let colors = self.palette.order(layer.index);
-        let mut merged = 1;
+        let (mut merged, mut seams) = (1, Seams::default());
         let (pieces, faces) = match self.settings.slice.strategy {
             Strategy::Sectioned => {
-                let (pieces, faces) =
+                let sectioned::Sectioned { pieces, faces, seams: of_layer } =
                     sectioned::pieces(self, layer, region, below.as_deref(), &mut seconds)?;
+                seams = of_layer;
                 let corner = self.design.bounds.max.truncate();
                 let options = self.settings.order_options(layer.index, corner);
                 let order = || {
@@ -121,6 +136,7 @@ impl Job<'_> {
             count,
             short,
             faces,
+            seams,
             model_mm3: area * layer.height,
             seconds,
             warnings: outline.warnings.clone(),

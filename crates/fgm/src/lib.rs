@@ -77,7 +77,7 @@ pub use layers::{Layer, Layers};
 pub use machine::machine;
 pub use progress::{Progress, Quiet};
 pub use purge::{PurgeInto, PurgeLayout, PurgeReport, PurgeSavings, Saving};
-pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report};
+pub use report::{CoolingReport, DepositFit, DepositReport, MaterialUse, Report, ZipperReport};
 pub use sections::Sections;
 pub use settings::{
     AgainstSettings, BridgeSettings, BrimSettings, CompensationSettings, ContourSettings,

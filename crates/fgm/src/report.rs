@@ -51,6 +51,9 @@ pub struct Report {
     pub progress: ProgressLines,
     /// Each input material: name, volume mm³, length of filament m, mass g.
     pub materials: Vec<MaterialUse>,
+    /// How long the seams between colours are; none without a zipper.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub zipper: Option<ZipperReport>,
     /// Where the old colour went, and what that saved; none where nothing is purged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub purge: Option<PurgeReport>,
@@ -62,6 +65,17 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Where the time of the slice went, s.
     pub seconds: StageSeconds,
+}
+
+/// Lengths over which beads of different colours touch, over all layers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ZipperReport {
+    /// With the zipper, mm.
+    pub seam_mm: f64,
+    /// The same paths cut straight along the palette's boundaries, mm.
+    pub straight_mm: f64,
+    /// What the zipper adds, mm.
+    pub gained_mm: f64,
 }
 
 /// Layers slowed by `cooling.min_layer_time`.

@@ -6,22 +6,31 @@ use fgm_contour::ContourOptions;
 use fgm_core::{Band, Polygon, Role, Sectioner, bead};
 use fgm_toolpath::{
     BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, bridges,
-    infill, infill_graded, region, section, skins_with, walls,
+    infill, infill_graded, region, seam_length, section, skins_with, walls,
 };
 
 use crate::{
-    choice::SectionBy,
+    boundaries::Bands,
+    choice::{SectionBy, Zipper},
     density::Shares,
     error::SliceError,
     field_sections::FieldSections,
     graded::{GradedLayer, check_material},
-    job::Job,
+    job::{Job, Seams},
     layers::Layer,
     outlines::{Outline, SharedOutline},
     settings::BridgeSettings,
     short_sections::ShortSections,
     stages::{StageSeconds, timed},
 };
+
+/// A layer's pieces, before ordering.
+pub(crate) struct Sectioned {
+    pub(crate) pieces: Vec<Piece>,
+    /// Faces of one colour, or the fewest that there can be.
+    pub(crate) faces: usize,
+    pub(crate) seams: Seams,
+}
 
 /// The pieces of a layer, before ordering.
 pub(crate) fn pieces(
@@ -30,7 +39,7 @@ pub(crate) fn pieces(
     region: &[Polygon],
     below: Option<&Outline>,
     seconds: &mut StageSeconds,
-) -> Result<(Vec<Piece>, usize), SliceError> {
+) -> Result<Sectioned, SliceError> {
     let neighbours = Neighbours::of(job, layer, seconds)?;
     let paths = timed(&mut seconds.toolpath, || {
         let simple = |path: Path| path.simplified(job.settings.contour.resolution);
@@ -41,34 +50,47 @@ pub(crate) fn pieces(
     // The layer's index makes a zipper's teeth alternate upwards, too.
     let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
     let (material, shortest) = (job.design.fractions.as_ref(), job.settings.section.shortest);
-    let mut cut = |sections: &dyn Sectioner<Band>| {
+    let cut = |sections: &dyn Sectioner<Band>, pieces: &mut Vec<Piece>| {
         let (palette, z) = (job.palette, layer.cut);
         if shortest > 0.0 {
             let sections = ShortSections { sections, material, palette, z, shortest };
-            section(&paths, &sections, &options, &mut pieces);
+            section(&paths, &sections, &options, pieces);
         } else {
-            section(&paths, sections, &options, &mut pieces);
+            section(&paths, sections, &options, pieces);
         }
     };
-    match job.settings.section.by {
+    let faces = match job.settings.section.by {
         SectionBy::Field => {
             timed(&mut seconds.contour, || check_material(region, layer.cut, material))?;
             timed(&mut seconds.toolpath, || {
-                let ContourOptions { cell, root_tolerance, .. } = job.isolines;
-                let sections =
-                    FieldSections::new(material, job.palette, layer.cut, cell, root_tolerance);
-                cut(&sections);
+                let sections = by_field(job, layer, job.bands);
+                cut(&sections, &mut pieces);
                 sections.finish()
             })?;
-            let colors: BTreeSet<_> = pieces.iter().map(|piece| piece.color).collect();
-            Ok((pieces, colors.len()))
+            pieces.iter().map(|piece| piece.color).collect::<BTreeSet<_>>().len()
         }
         SectionBy::Faces => {
             let graded = GradedLayer::new(job, layer, region, seconds)?;
-            timed(&mut seconds.toolpath, || cut(&graded));
-            Ok((pieces, graded.count()))
+            timed(&mut seconds.toolpath, || cut(&graded, &mut pieces));
+            graded.count()
         }
+    };
+    let mut seams = Seams::default();
+    if let Some(palette) = &job.straight {
+        timed(&mut seconds.toolpath, || {
+            let mut straight = Vec::new();
+            let bands = Bands::new(material, palette, Zipper::NONE);
+            cut(&by_field(job, layer, bands), &mut straight);
+            seams.straight = seam_length(&straight, layer.height);
+            seams.zipped = seam_length(&pieces, layer.height);
+        });
     }
+    Ok(Sectioned { pieces, faces, seams })
+}
+
+fn by_field<'a>(job: &Job<'_>, layer: &Layer, bands: Bands<'a>) -> FieldSections<'a> {
+    let ContourOptions { cell, root_tolerance, .. } = job.isolines;
+    FieldSections::new(bands, layer.cut, cell, root_tolerance)
 }
 
 /// The outlines that skins look at; none past the part's ends.

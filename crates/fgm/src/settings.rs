@@ -109,7 +109,7 @@ settings! {
     palette: PaletteSettings {
         #[doc = "How many colours; auto takes the most that keeps pieces printable."]
         colors: Option<ColorCount> = None, "16, or the heads of a tool changer", "count | \"auto\"";
-        #[doc = "Overlap of neighbouring colours, in which their paths alternate."]
+        #[doc = "Overlap of neighbouring colours, in which their paths alternate: a share of the gradient, or a length along it, measured where it is, up to the width of a band."]
         zipper: Zipper = Zipper::NONE, "0", "share of the gradient | \"15mm\"";
         #[doc = "Share of pieces that may be shorter than short_piece when colors is auto."]
         auto_short_share: f64 = 0.1, "0.1", "share";

@@ -178,7 +178,7 @@ impl<'a> Line<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field_sections::FieldSections;
+    use crate::{Zipper, boundaries::Bands, field_sections::FieldSections};
 
     /// The colours and lengths along a line from x = -10 to 10 whose fraction rises from 0 to 1 as
     /// `fraction` says.
@@ -189,7 +189,8 @@ mod tests {
         let loaded = fgm_design::parse_vcad(&source, ".".as_ref(), &Default::default()).unwrap();
         let material = loaded.design.fractions.as_ref();
         let palette = Palette::new(2, colors).unwrap();
-        let sections = FieldSections::new(material, &palette, 0.0, 0.5, 1e-9);
+        let bands = Bands::new(material, &palette, Zipper::NONE);
+        let sections = FieldSections::new(bands, 0.0, 0.5, 1e-9);
         let short =
             ShortSections { sections: &sections, material, palette: &palette, z: 0.0, shortest };
         let path = [Point2::new(-10.0, 0.0), Point2::new(10.0, 0.0)];

@@ -8,6 +8,7 @@ use fgm_toolpath::{ClipperInset, Inset};
 
 use crate::{
     ahead::Ahead,
+    boundaries::Bands,
     boundary_lines::BoundaryLines,
     choice::{ColorCount, Strategy, Zipper},
     colors,
@@ -119,6 +120,10 @@ impl<'a> Slicer<'a> {
         placement::check(&part, &bed, &self.machine.name)?;
         let threads = pool.current_num_threads();
         let palette = timed(&mut seconds.read, || self.palette(&outliner, layers))?;
+        if let Some(warning) = colors::narrowed(&palette, self.design, self.settings, &outliner)? {
+            progress.warn(&warning);
+            warnings.push(warning);
+        }
         let mut job = self.job(&outliner, &palette, layers, threads)?;
 
         let mut offset = self.machine.bed.centering(&part);
@@ -279,7 +284,7 @@ impl<'a> Slicer<'a> {
             Some(ColorCount::Auto) => {
                 let most = self.machine.max_colors();
                 colors::auto_count(design, settings, outliner, most, &|count| {
-                    let palette = colors::palette(count, design, settings, outliner)?;
+                    let palette = colors::palette(count, design, settings)?;
                     let job = self.job(outliner, &palette, layers, 1)?;
                     let (mut short, mut pieces) = (0, 0);
                     for index in spread(layers.count(), AUTO_LAYERS) {
@@ -290,7 +295,7 @@ impl<'a> Slicer<'a> {
                 })?
             }
         };
-        colors::palette(count, design, settings, outliner)
+        colors::palette(count, design, settings)
     }
 
     fn job<'j>(
@@ -307,20 +312,33 @@ impl<'a> Slicer<'a> {
         if density.is_some() && !infill.pattern.is_straight() {
             return Err(SliceError::GradedPattern { pattern: infill.pattern });
         }
+        let bands = self.bands(palette);
+        let zipped = bands.reach() > 0.0;
         Ok(Job {
             settings: self.settings,
             design: self.design,
             palette,
+            bands,
+            straight: zipped.then(|| palette.clone().with_overlap(0.0)).transpose()?,
             layers,
             outlines: OutlineWindow::new(outliner, span.min(layers.count())),
             isolines: self.settings.isoline_options(),
-            boundaries: BoundaryLines::new(self.design, palette, self.settings.isoline_options()),
+            boundaries: BoundaryLines::new(self.design, bands, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
             density,
             hidden_purges: purge::hides(self.machine, self.settings)
                 .then(|| self.needs(colors::ids(palette).map(|c| palette.state(c)).collect())),
             first: 0,
         })
+    }
+
+    /// The palette's bands, with the zipper of strategy 1.
+    fn bands<'p>(&'p self, palette: &'p Palette) -> Bands<'p> {
+        let zipper = match self.settings.slice.strategy {
+            Strategy::Sectioned => self.settings.palette.zipper,
+            Strategy::Against => Zipper::NONE,
+        };
+        Bands::new(self.design.fractions.as_ref(), palette, zipper)
     }
 
     /// The dead volume that commands go ahead by, mm³.
@@ -345,7 +363,8 @@ impl<'a> Slicer<'a> {
             return Ok(None);
         }
         let needs = self.needs(colors::ids(palette).map(|c| palette.state(c)).collect());
-        let occurring = colors::occurring(self.design, palette, place.0.xy(), layers, range);
+        let window = place.0.xy();
+        let occurring = colors::occurring(self.design, self.bands(palette), window, layers, range);
         let mut demand = Demand::of(&needs, occurring);
         // Bounds cannot tell that colours between two others do occur, so that no step is large.
         if self.settings.purge.threshold > 0.0 && demand.last_change.is_some() {
@@ -428,6 +447,14 @@ impl<'a> Slicer<'a> {
         report.model_mm3 += planned.model_mm3;
         report.pieces += planned.count;
         report.short_pieces += planned.short;
+        if self.settings.palette.zipper != Zipper::NONE
+            && self.settings.slice.strategy == Strategy::Sectioned
+        {
+            let zipper = report.zipper.get_or_insert_default();
+            zipper.seam_mm += planned.seams.zipped;
+            zipper.straight_mm += planned.seams.straight;
+            zipper.gained_mm = zipper.seam_mm - zipper.straight_mm;
+        }
     }
 
     fn fill(&self, report: &mut Report, summary: &Summary, colors: usize, layers: usize) {

@@ -6,7 +6,7 @@ use std::{
 };
 
 use fgm::{
-    Aim, DepositReport, PurgeLayout, PurgeReport, Report, Settings, Slicer,
+    Aim, DepositReport, PurgeLayout, PurgeReport, Report, Settings, Slicer, ZipperReport,
     design::{self, LoadOptions},
     gcode::Machine,
 };
@@ -268,6 +268,14 @@ fn summary(report: &Report, output: &Path) {
         report.state_changes,
         duration(report.print_time_s)
     );
+    if let Some(ZipperReport { seam_mm, straight_mm, .. }) = report.zipper {
+        let _ = writeln!(
+            err,
+            "  {dash} zipper: colours touch over {:.2} m, {:.2} m without it",
+            seam_mm / 1000.0,
+            straight_mm / 1000.0
+        );
+    }
     if let Some(purge) = &report.purge {
         purge_summary(purge).iter().for_each(|line| {
             let _ = writeln!(err, "  {dash} {line}");
