@@ -10,6 +10,8 @@ use fgm_core::{Bounds2, Point2};
 /// A ring of more vertices than this is no scrap of a corner's tip.
 const MOST_SCRAP_VERTICES: usize = 64;
 const NO_EXTRA: u32 = u32::MAX;
+/// Segments shorter than this, in cells, lie across a corner more easily than their curvature tells.
+const SHORT: f64 = 0.3;
 
 /// A segment that may lie off the curve by more than the sag.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +24,9 @@ struct Suspect {
     /// How fast the field changes across the lattice edges at the ends, a mm; 0 where nearness to
     /// the curve says nothing.
     slope: f64,
+    /// How far from its middle the neighbours, drawn on, pass if they meet in a corner; infinite
+    /// where they meet in none.
+    tip: f64,
 }
 
 /// Vertices added to the segment that starts at `slot`: a range of [`Refiner::points`].
@@ -115,6 +120,7 @@ impl Refiner {
                     a,
                     b,
                     slope,
+                    tip: tip(before, a, b, after),
                 });
             }
         }
@@ -140,7 +146,9 @@ impl Refiner {
                 return Err(ContourError::NotANumber { at: self.middles[k] });
             }
             let off = value.abs() / suspect.slope;
-            if off <= options.sag {
+            // A corner that cuts the chord as the neighbours say; a bend lies at a quarter of that.
+            let corner = options.sharp && suspect.tip <= 2.0 * off;
+            if off <= if corner { 0.5 * options.sag } else { options.sag } {
                 continue;
             }
             let from = self.points.len();
@@ -314,7 +322,24 @@ fn may_be_off(
     // Where the neighbours, drawn on, would meet: a corner cut off by a short segment.
     let product = arriving.length() * leaving.length();
     let height = 0.5 * length * arriving.perp_dot(leaving).abs();
-    options.sharp && height > 2.0 * options.sag * (product + arriving.dot(leaving))
+    let least = if length < SHORT * options.cell { 0.5 } else { 2.0 } * options.sag;
+    options.sharp && height > least * (product + arriving.dot(leaving))
+}
+
+/// How far from the middle of the segment from `a` to `b` the lines through its neighbours pass, if
+/// they meet ahead of both; infinite if they do not.
+fn tip(before: Option<Point2>, a: Point2, b: Point2, after: Option<Point2>) -> f64 {
+    let (Some(before), Some(after)) = (before, after) else { return f64::INFINITY };
+    let (u, v, chord) = (a - before, after - b, b - a);
+    let turn = u.perp_dot(v);
+    let (s, t) = (chord.perp_dot(v) / turn, u.perp_dot(chord) / turn);
+    if !(s > 0.0 && t > 0.0) {
+        return f64::INFINITY;
+    }
+    let corner = u * s;
+    let share = (corner.dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+    let height = corner.perp_dot(chord).abs() / chord.length();
+    height * 0.5 / share.max(1.0 - share)
 }
 
 /// Twice the enclosed area, signed.

@@ -38,9 +38,9 @@ pub fn simplify_polygons(polygons: &[Polygon], tolerance: f64) -> Vec<Polygon> {
         .collect()
 }
 
-/// The cosine of the least turn, 30 degrees, that is a corner. Smooth lines turn by less at a kept
+/// The cosine of the least turn, 15 degrees, that is a corner. Smooth lines turn by less at a kept
 /// vertex, but where their bends are not much wider than the tolerance.
-const SHARP: f64 = 0.866;
+const SHARP: f64 = 0.966;
 
 /// Removes vertices from many lines at once.
 #[derive(Debug, Default)]
