@@ -12,6 +12,7 @@ use fgm_gcode::Machine;
 use fgm_toolpath::{Piece, ToolpathError, TowerOptions, Towers};
 
 use crate::{error::SliceError, settings::Settings};
+use needs::Arrival;
 use tally::Tally;
 
 pub use choice::{PurgeInto, PurgeLayout};
@@ -105,7 +106,7 @@ impl Purge {
         let mut filling: Option<Filling> = None;
         for (i, piece) in pieces.into_iter().enumerate() {
             if let Some((change, block)) = changes.next_if(|(change, _)| change.start == i) {
-                let mut begun = Filling::new(&change, block.as_ref(), self.needs.boundary, height);
+                let mut begun = Filling::new(&change, block.as_ref(), self.needs.arrival, height);
                 block.take().into_iter().for_each(|block| begun.paint(block, &mut all));
                 filling = Some(begun);
             }
@@ -297,17 +298,16 @@ struct Filling {
 }
 
 impl Filling {
-    fn new(change: &Change, block: Option<&Piece>, boundary: f64, height: f64) -> Self {
+    fn new(change: &Change, block: Option<&Piece>, arrival: Arrival, height: f64) -> Self {
         let volume = |piece: &Piece| piece.length() * bead::area(piece.width, height);
         let whole = block.map_or(0.0, volume) + change.hidden;
-        let boundary = if change.arrives { boundary } else { 1.0 };
-        Self {
-            from: change.from,
-            to: change.to,
-            height,
-            before: (whole - (1.0 - boundary) * change.volume).max(0.0),
-            hidden: change.hidden,
-        }
+        let before = match arrival {
+            _ if !change.arrives => whole,
+            Arrival::Start => 0.0,
+            Arrival::Middle => (whole - 0.5 * change.volume).max(0.0),
+            Arrival::End => whole,
+        };
+        Self { from: change.from, to: change.to, height, before, hidden: change.hidden }
     }
 
     /// Lays down a piece in the old colour up to the boundary and in the new one from there on.

@@ -15,10 +15,18 @@ pub(crate) struct Needs {
     dead: f64,
     /// Step of the mixture times dead volume up to which nothing is purged, mm³.
     threshold: f64,
-    /// Where in a purge the new colour is taken to come out, as a share of its volume. A sharp
-    /// change may come anywhere in the dead volume, so it is waited for. A transition that is
-    /// known has its middle there.
-    pub(crate) boundary: f64,
+    pub(super) arrival: Arrival,
+}
+
+/// Where in a purge the new colour is taken to come out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Arrival {
+    /// A head has its own colour, and is purged of what has stood in it.
+    Start,
+    /// A transition that is known has its middle there.
+    Middle,
+    /// A sharp change may come anywhere in the dead volume, so it is waited for.
+    End,
 }
 
 /// How much a change takes.
@@ -50,10 +58,13 @@ impl Needs {
             (None, Some(transition)) => Volumes::Until(transition, settings.purge.tolerance),
             (None, None) => Volumes::Same(lead),
         };
-        let centred = transition.is_some() && machine.kind == MachineKind::Mixing;
+        let arrival = match machine.kind {
+            MachineKind::ToolChanger => Arrival::Start,
+            MachineKind::Mixing if transition.is_some() => Arrival::Middle,
+            MachineKind::Mixing | MachineKind::Foaming => Arrival::End,
+        };
         let threshold = settings.purge.threshold;
-        let boundary = if centred { 0.5 } else { 1.0 };
-        Self { palette, volumes, dead: lead, threshold, boundary }
+        Self { palette, volumes, dead: lead, threshold, arrival }
     }
 
     /// What a change takes where every one is purged, mm³. Nothing is known of what is in the

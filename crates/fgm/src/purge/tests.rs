@@ -1,4 +1,5 @@
 use fgm_core::Point2;
+use proptest::prelude::*;
 
 use super::*;
 
@@ -9,23 +10,28 @@ fn piece(from: f64, to: f64, color: u16, role: Role) -> Piece {
 
 /// A print of colours 0 and 1, side by side, whose dead volume is `volume` mm³.
 fn purge(volume: f64, transition: bool, hidden: bool, layout: PurgeLayout) -> Purge {
+    let mut machine = Machine::builtin("generic-mixing").unwrap();
+    if transition {
+        machine.transition.delay = Some(1.0);
+        machine.transition.change = Some(volume);
+    }
+    purge_on(&machine, volume, hidden, layout)
+}
+
+fn purge_on(machine: &Machine, volume: f64, hidden: bool, layout: PurgeLayout) -> Purge {
     let mut settings = Settings::default();
     settings.purge.layout = Some(layout);
     settings.purge.volume = Some(volume);
     if hidden {
         settings.purge.into = PurgeInto::Infill;
     }
-    let mut machine = Machine::builtin("generic-mixing").unwrap();
-    if transition {
-        machine.transition.delay = Some(1.0);
-        machine.transition.change = Some(volume);
-    }
+    settings.purge.enabled = Some(true);
     let palette = [0.25, 0.75].map(|share| fgm_core::Mixture::from_weights(&[share, 1.0 - share]));
     let palette: Vec<_> = palette.into_iter().map(Result::unwrap).collect();
-    let needs = Needs::new(&machine, &settings, volume, palette);
+    let needs = Needs::new(machine, &settings, volume, palette);
     let demand = Demand::of(&needs, std::iter::repeat_n(vec![true; 2], 9));
     let part = Bounds3 { min: Point3::splat(-20.0), max: Point3::splat(20.0) };
-    Purge::new(&machine, &settings, needs, &demand, (&part, Point3::splat(100.0))).unwrap()
+    Purge::new(machine, &settings, needs, &demand, (&part, Point3::splat(100.0))).unwrap()
 }
 
 const HEIGHT: f64 = 0.2;
@@ -79,6 +85,18 @@ fn a_known_transition_has_its_middle_in_the_middle() {
     assert!(tower.starts_with("T0:"), "it has to grow: {got}");
     let rest = got.strip_prefix(tower).unwrap();
     assert_eq!(rest, " w0:20.0 H0:15.0 H1:15.0 i1:20.0 w1:7.0");
+}
+
+/// Once the head that was put away was purged, not the one taken up.
+#[test]
+fn a_head_is_purged_of_its_own_colour() {
+    let machine = Machine::builtin("prusa-xl-5t").unwrap();
+    let mut tower = purge_on(&machine, 30.0, false, PurgeLayout::One);
+    let got = told(&mut tower, &layer(50.0), Some(0), 3);
+    assert!(got.starts_with("w0:20.0 T1:3") && got.ends_with("i1:50.0 w1:7.0"), "{got}");
+    let mut infill = purge_on(&machine, 30.0, true, PurgeLayout::One);
+    let got = told(&mut infill, &layer(50.0), Some(0), 3);
+    assert!(got.ends_with(" w0:20.0 H1:30.0 i1:20.0 w1:7.0"), "{got}");
 }
 
 #[test]
@@ -153,4 +171,43 @@ fn demand_is_by_layer() {
     assert_eq!(layers(&["xxxxx", "xxxxx"]).most, 50.0);
     let one = layers(&["x....", "x....", "x...."]);
     assert_eq!((one.most, one.last_change), (10.0, None));
+}
+
+proptest! {
+    #[test]
+    fn a_purge_adds_nothing_but_towers_and_keeps_every_bead(
+        runs in prop::collection::vec(prop::collection::vec((0.0..60.0f64, any::<bool>()), 1..5), 1..4),
+        volume in 1.0..60.0f64, transition: bool, hidden: bool, spots: bool,
+        begun: Option<bool>, count in 0..4usize,
+    ) {
+        let layout = if spots { PurgeLayout::Spots } else { PurgeLayout::One };
+        let mut purge = purge(volume, transition, hidden, layout);
+        let mut pieces = Vec::new();
+        for (i, run) in runs.iter().enumerate() {
+            let color = (i % 2) as u16;
+            let role = |infill| if infill { Role::Infill } else { Role::InnerWall };
+            pieces.extend(run.iter().map(|&(v, infill)| piece(0.0, mm(v), color, role(infill))));
+        }
+        let laid = purge.lay(pieces.clone(), begun.map(|b| ColorId(b.into())), count, HEIGHT);
+        let volume_of = |pieces: &[Piece], which: &dyn Fn(&Piece) -> bool| -> f64 {
+            let length: f64 = pieces.iter().filter(|p| which(p)).map(Piece::length).sum();
+            length * bead::area(0.4, HEIGHT)
+        };
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        // The walls as they were; the infill in all.
+        let walls = |pieces: &[Piece]| -> Vec<Piece> {
+            pieces.iter().filter(|p| p.role == Role::InnerWall).cloned().collect()
+        };
+        prop_assert_eq!(walls(&laid), walls(&pieces));
+        let part = |p: &Piece| p.role.is_part();
+        prop_assert!(close(volume_of(&laid, &part), volume_of(&pieces, &part)));
+        let report = purge.finish();
+        let infill = volume_of(&laid, &|p| p.role == Role::PurgeInfill);
+        prop_assert!(close(infill, report.infill_mm3));
+        prop_assert!(hidden || infill == 0.0);
+        // What a tower takes besides the purges.
+        let tower = volume_of(&laid, &|p| p.role == Role::PurgeTower);
+        prop_assert!(tower >= report.standing_mm3 - 1e-6, "{} {:?}", tower, report);
+        prop_assert!(report.purged <= report.changes && report.unpurged == 0);
+    }
 }
