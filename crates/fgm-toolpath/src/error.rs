@@ -56,9 +56,10 @@ pub enum ToolpathError {
     },
     /// The purge towers do not fit beside the part.
     #[error(
-        "no room for {colors} purge towers of {spot:.1} x {spot:.1} mm: {fit} fit beside the \
-         part; {missing:.1} mm more are needed on its {side}. Move or shrink the part, use fewer \
-         colours or a smaller purge volume, or switch the purge towers off"
+        "no room for {} of {spot:.1} x {spot:.1} mm: {fit} fit beside the part; {missing:.1} mm \
+         more are needed on its {side}. Move or shrink the part, use fewer colours or a smaller \
+         purge volume, or switch the purge off",
+        towers(*colors)
     )]
     NoRoomForTowers {
         /// How many are needed.
@@ -72,4 +73,8 @@ pub enum ToolpathError {
         /// That side.
         side: Side,
     },
+}
+
+fn towers(count: usize) -> String {
+    if count == 1 { "a purge tower".to_owned() } else { format!("{count} purge towers") }
 }

@@ -86,6 +86,9 @@ fn no_room() {
     assert!(fit > 0 && fit < 90 && missing > 0.0);
     let text = error.to_string();
     assert!(text.contains("90 purge towers") && text.contains("mm more"), "{text}");
+    let large = TowerOptions { volume: 5000.0, ..options };
+    let text = Towers::place(&part, &BED, 1, &large).unwrap_err().to_string();
+    assert!(text.starts_with("no room for a purge tower of "), "{text}");
 }
 
 #[test]

@@ -117,3 +117,20 @@ fn no_tower_where_steps_leave_little_that_is_wrong() {
         assert!((purge.saved.threshold.mm3 - left_out).abs() < 70.0, "{purge:?}");
     }
 }
+
+#[test]
+fn spots_go_around_a_part_that_leaves_no_room_for_one_tower() {
+    let wide =
+        r#"fgrade(["x/200 + 0.5", "0.5 - x/200"], ["a", "b"]) { rectprism(200, 200, 0.4); }"#;
+    let mut settings = settings(Strategy::Sectioned, 16);
+    (settings.skins.top, settings.skins.bottom) = (0, 0);
+    settings.infill.density = 0.0.into();
+    let (report, _) = slice(&parse(wide), "generic-mixing", &settings);
+    assert_eq!(purge(&report).layout, Some(PurgeLayout::Spots));
+    settings.purge.layout = Some(PurgeLayout::One);
+    let machine = Machine::builtin("generic-mixing").unwrap();
+    let error = fgm::Slicer::new(&parse(wide), &machine, &settings)
+        .slice(&mut Vec::new(), &fgm::Quiet)
+        .unwrap_err();
+    assert!(error.to_string().contains("a purge tower of 74"), "{error}");
+}
