@@ -89,6 +89,10 @@ impl Support {
             return;
         }
         let band = (0.5 - share.clamp(0.0, 0.5)) * width;
+        if self.grid.is_deep_inside(line, band) {
+            out.push(Stretch { from: 0.0, to: (line.len() - 1) as f64, hold: Hold::Held });
+            return;
+        }
         let Scratch { close, crossings, crossed, cuts } = scratch;
         close.clear();
         crossings.clear();

@@ -40,6 +40,14 @@ impl<'a> BoundaryLines<'a> {
         Self { bands, options, window, shared }
     }
 
+    /// Traces the lines that all layers share, if there are any, at the height of one of them: the
+    /// first layers would wait for each other.
+    pub(crate) fn prepare(&self, z: f64) {
+        if let Some(shared) = &self.shared {
+            shared.get_or_init(|| self.trace(&self.window, z).ok());
+        }
+    }
+
     /// The lines that may meet `region`, a layer's part at height `z`.
     pub(crate) fn in_layer(
         &self,

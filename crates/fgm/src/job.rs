@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use fgm_contour::ContourOptions;
 use fgm_core::{Point2, Polygon, Role};
 use fgm_field::{Design, ExprField};
@@ -6,6 +8,8 @@ use fgm_toolpath::{
     ClipperInset, OrderOptions, Piece, brim, join_ends, mark_overhangs, order_routes, order_with,
     skirt,
 };
+
+use rayon::ThreadPool;
 
 use crate::{
     against,
@@ -80,6 +84,24 @@ impl Job<'_> {
     /// Plans one layer, from its own inputs alone.
     pub(crate) fn plan(&self, index: usize) -> Result<PlannedLayer, SliceError> {
         self.plan_layer(&self.layers.get(index)).map_err(|e| e.in_layer(index))
+    }
+
+    /// Makes what the first layers have in common, on one thread, and their outlines on another.
+    pub(crate) fn prepare(&self, pool: &ThreadPool, range: Range<usize>) {
+        let (Strategy::Against, Some(first)) = (self.settings.slice.strategy, range.clone().next())
+        else {
+            return;
+        };
+        let cut = self.layers.get(first).cut;
+        let outlines = || {
+            for index in range.take(self.outlines.span()) {
+                // What goes wrong there goes wrong in its layer, too, and is told with that.
+                if self.outlines.get(&self.layers.get(index)).is_err() {
+                    break;
+                }
+            }
+        };
+        pool.install(|| rayon::join(|| self.boundaries.prepare(cut), outlines));
     }
 
     fn plan_layer(&self, layer: &Layer) -> Result<PlannedLayer, SliceError> {

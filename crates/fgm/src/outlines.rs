@@ -126,6 +126,11 @@ impl<'a> OutlineWindow<'a> {
         Self { outliner, slots: (0..span.max(1)).map(|_| Mutex::default()).collect() }
     }
 
+    /// How many outlines are kept.
+    pub(crate) fn span(&self) -> usize {
+        self.slots.len()
+    }
+
     /// The outline of a layer.
     pub(crate) fn get(&self, layer: &Layer) -> Result<SharedOutline, SliceError> {
         let slot = &self.slots[layer.index % self.slots.len()];

@@ -148,6 +148,7 @@ impl<'a> Slicer<'a> {
         let (mut done, total) = (0, range.len());
         let mut merged = 1;
         progress.advance(done, total);
+        job.prepare(&pool, range.clone());
         let make = |index| job.plan(index);
         pipeline::ordered(&pool, range, AHEAD_PER_THREAD * threads, &make, |planned| {
             if progress.cancelled() {

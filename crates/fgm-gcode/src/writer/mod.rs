@@ -42,6 +42,8 @@ const EARLIEST: usize = 1024;
 pub struct Writer<W: io::Write> {
     out: W,
     text: Text,
+    /// The last tag, kept for its memory.
+    tag: Vec<u8>,
     machine: Machine,
     states: Vec<State>,
     options: WriterOptions,
@@ -103,6 +105,7 @@ impl<W: io::Write> Writer<W> {
         let writer = Self {
             out,
             text: Text::new(),
+            tag: Vec::new(),
             time: TimeEstimate::new(&options.limits),
             position: Position::new(machine.bed.bounds(), options.offset),
             machine: used,

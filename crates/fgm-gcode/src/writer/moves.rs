@@ -190,10 +190,11 @@ impl<W: io::Write> Writer<W> {
         let width = Fixed::round(width)?;
         if self.bead.tag_width != Some(width) {
             self.bead.tag_width = Some(width);
-            let mut digits = Vec::new();
-            width.write_trimmed(&mut digits);
-            let text = format!("WIDTH:{}", String::from_utf8_lossy(&digits));
-            self.dialect.comment(&text, &mut self.text);
+            self.tag.clear();
+            self.tag.extend_from_slice(b"WIDTH:");
+            width.write_trimmed(&mut self.tag);
+            let text = std::str::from_utf8(&self.tag).unwrap_or_default();
+            self.dialect.comment(text, &mut self.text);
         }
         Ok(())
     }

@@ -8,6 +8,15 @@ const CELLS_AN_EDGE: f64 = 4.0;
 /// A segment is cut into no more stretches than this.
 const MOST_STRETCHES: f64 = 1e4;
 
+/// Whether a cell is far from every edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Quiet {
+    /// There is one in it or in a cell around it.
+    No,
+    Outside,
+    Inside,
+}
+
 /// Edges by cell, in one array a piece (no allocation a cell).
 pub(crate) struct EdgeGrid {
     origin: Point2,
@@ -19,8 +28,8 @@ pub(crate) struct EdgeGrid {
     starts: Vec<u32>,
     items: Vec<u32>,
     edges: Vec<(Point2, Point2)>,
-    /// Cells without an edge in or around them; empty where that is not asked for.
-    quiet: Vec<bool>,
+    /// Which cells have no edge in or around them; empty where that is not asked for.
+    quiet: Vec<Quiet>,
 }
 
 impl EdgeGrid {
@@ -180,7 +189,7 @@ impl EdgeGrid {
             let stretch = (f64::from(i) / count, f64::from(i + 1) / count);
             let (p, q) = (a.lerp(b, stretch.0), a.lerp(b, stretch.1));
             let cell = self.row(p.y) * self.columns + self.column(p.x);
-            if reach < longest && self.quiet.get(cell) == Some(&true) {
+            if reach < longest && self.quiet.get(cell).is_some_and(|cell| *cell != Quiet::No) {
                 continue;
             }
             let (low, high) = (p.min(q) - reach, p.max(q) + reach);
@@ -199,10 +208,23 @@ impl EdgeGrid {
         }
     }
 
+    /// Whether a line lies inside the border all along and nowhere comes within `reach` of it. It
+    /// may, where this says it does not.
+    pub(crate) fn is_deep_inside(&self, line: &[Point2], reach: f64) -> bool {
+        // A quiet cell is a cell's side away from any edge: no point of so short a step between
+        // two of them comes nearer than half of that.
+        let short = |w: &[Point2]| w[0].distance_squared(w[1]) <= self.cell * self.cell;
+        let deep = |p: &Point2| {
+            let cell = self.row(p.y) * self.columns + self.column(p.x);
+            self.quiet.get(cell) == Some(&Quiet::Inside)
+        };
+        2.0 * reach < self.cell && line.iter().all(deep) && line.windows(2).all(short)
+    }
+
     /// Marks the cells that have no edge in them or in any of the eight around.
     fn mark_quiet(&mut self) {
         let busy = |cell: usize| self.starts[cell] < self.starts[cell + 1];
-        let mut quiet = vec![true; self.rows * self.columns];
+        let mut quiet = vec![Quiet::Outside; self.rows * self.columns];
         for row in 0..self.rows {
             for column in 0..self.columns {
                 if !busy(row * self.columns + column) {
@@ -211,8 +233,19 @@ impl EdgeGrid {
                 for y in row.saturating_sub(1)..=(row + 1).min(self.rows - 1) {
                     let cells = y * self.columns;
                     let right = (column + 1).min(self.columns - 1);
-                    quiet[cells + column.saturating_sub(1)..=cells + right].fill(false);
+                    quiet[cells + column.saturating_sub(1)..=cells + right].fill(Quiet::No);
                 }
+            }
+        }
+        for (row, cells) in quiet.chunks_mut(self.columns).enumerate() {
+            let mut columns = 0..self.columns;
+            while let Some(first) = columns.find(|&column| cells[column] != Quiet::No) {
+                let run = cells[first..].iter().take_while(|cell| **cell != Quiet::No).count();
+                let middle = Point2::new(first as f64 + 0.5, row as f64 + 0.5);
+                if self.contains(self.origin + middle * self.cell) {
+                    cells[first..first + run].fill(Quiet::Inside);
+                }
+                columns.start = first + run;
             }
         }
         self.quiet = quiet;

@@ -21,7 +21,7 @@ const MOST_TRAVELS: usize = 4;
 /// colour by colour, the best way to every place a colour may end at.
 pub(super) fn sequence(rounds: Vec<Round>, start: Point2) -> (Vec<Round>, Vec<Gate>) {
     let mut search = Search::new(&rounds, start);
-    let mut ends = vec![0..1];
+    let mut ends: Vec<Nodes> = std::iter::once(0..1).collect();
     let mut first = 0;
     while first < rounds.len() {
         let color = rounds[first].color();
@@ -83,7 +83,7 @@ impl Search {
     /// Prints a route after the best of the nodes `before`, at each of its stops.
     fn extend<'a>(
         &mut self,
-        before: impl Iterator<Item = &'a Nodes> + Clone,
+        before: &(impl Iterator<Item = &'a Nodes> + Clone),
         round: usize,
     ) -> Nodes {
         let first = self.nodes.len();
@@ -120,10 +120,10 @@ impl Search {
                 let rest = set & !(1 << last);
                 let round = group.start + last;
                 table[set * count + last] = if rest == 0 {
-                    self.extend(before.iter(), round)
+                    self.extend(&before.iter(), round)
                 } else {
                     let others = (0..count).filter(|i| rest >> i & 1 == 1);
-                    self.extend(others.map(|i| &table[rest * count + i]), round)
+                    self.extend(&others.map(|i| &table[rest * count + i]), round)
                 };
             }
         }
@@ -144,7 +144,7 @@ impl Search {
             let distances = left.iter().map(|&round| near(round)).enumerate();
             let Some((k, _)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
             let round = left.remove(k);
-            ends = vec![self.extend(ends.iter(), round)];
+            ends = vec![self.extend(&ends.iter(), round)];
         }
         ends
     }

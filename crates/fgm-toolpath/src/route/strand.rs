@@ -54,8 +54,18 @@ impl Strand {
 /// The strands of some paths, whose points they take: those that meet joined, and what runs side by
 /// side closed to loops.
 pub(super) fn strands(paths: &mut [Path], spacing: f64) -> Vec<Strand> {
-    let (mut out, open): (Vec<_>, Vec<_>) =
-        paths.iter_mut().zip(0..).map(|(p, i)| Strand::of(p, i)).partition(|s| s.closed);
+    let (mut out, mut open): (Vec<Strand>, Vec<Strand>) = (Vec::new(), Vec::new());
+    for (path, bead) in paths.iter_mut().zip(0..) {
+        // Beads of a varying width come one after the other.
+        match open.last_mut() {
+            Some(last) if !path.closed && last.ends()[1] == path.points[0] => {
+                last.points.extend_from_slice(&path.points[1..]);
+                last.beads.resize(last.points.len() - 1, bead);
+            }
+            _ if path.closed => out.push(Strand::of(path, bead)),
+            _ => open.push(Strand::of(path, bead)),
+        }
+    }
     let open = linked(open);
     let (closed, open): (Vec<_>, Vec<_>) = open.into_iter().partition(|s| s.closed);
     out.extend(closed);
@@ -66,17 +76,14 @@ pub(super) fn strands(paths: &mut [Path], spacing: f64) -> Vec<Strand> {
 /// Open strands whose ends are the same point become one.
 fn linked(strands: Vec<Strand>) -> Vec<Strand> {
     // Ends by place; a place with several ends joins them two by two.
-    let end = |s: usize, e: usize| strands[s].ends()[e];
-    let mut ends: Vec<(usize, usize)> = (0..strands.len()).flat_map(|s| [(s, 0), (s, 1)]).collect();
-    ends.sort_by(|&(s, e), &(t, f)| {
-        let (a, b) = (end(s, e), end(t, f));
-        a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
-    });
+    let of = |s: usize| strands[s].ends().map(|p| (p, s)).into_iter().zip(0..2);
+    let mut ends: Vec<((Point2, usize), usize)> = (0..strands.len()).flat_map(of).collect();
+    ends.sort_by(|((a, _), _), ((b, _), _)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     let mut partner = vec![[None; 2]; strands.len()];
     let mut i = 0;
     while i + 1 < ends.len() {
-        let ((s, e), (t, f)) = (ends[i], ends[i + 1]);
-        if end(s, e) == end(t, f) {
+        let (((p, s), e), ((q, t), f)) = (ends[i], ends[i + 1]);
+        if p == q {
             (partner[s][e], partner[t][f]) = (Some((t, f)), Some((s, e)));
             i += 1;
         }
