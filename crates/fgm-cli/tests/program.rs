@@ -223,7 +223,7 @@ fn lists_and_help_are_there() {
         ("printers", "geeetech-mizar-m"),
         ("printers show snmf-4", "name = \"snmf-4\""),
         ("settings", "bead_width = 0.4"),
-        ("settings infill", "density = 15"),
+        ("settings infill", "density = \"design\""),
         ("completions bash", "_fgm"),
         ("inspect d.vcad", "50 of 0.2 mm"),
         ("inspect d.vcad --json", "\"layers\": 50"),

@@ -107,6 +107,7 @@ fn nodes_and_arguments() {
             "blend(1000, 1000, 1000) { cube(1, \"a\"); }",
             "1:6: a kernel of 1000000000 samples, where 1 to 32768 are possible",
         ),
+        ("density(3) { cube(1, \"a\"); }", "1:8: `density` takes (\"expression\"); given: number"),
         (
             "convolve([[[1, 2], [3]]]) { cube(1, \"a\"); }",
             "1:10: a kernel is [[[...]]]: rows of equal length, in planes of equal size",

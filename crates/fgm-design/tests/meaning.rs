@@ -430,3 +430,41 @@ fn palettes_and_warnings() {
         assert!(mesh.volume() > 0.0);
     }
 }
+
+#[test]
+fn densities() {
+    let at = |design: &Design, p: [f64; 3]| {
+        let density = design.density.as_ref().unwrap();
+        let value = density.eval(Point3::from(p));
+        let mut many = [0.0];
+        density.at_z(p[2]).eval_into(&[fgm_core::Point2::new(p[0], p[1])], &mut many);
+        assert_eq!(value, many[0]);
+        let bounds = density.bounds(&Bounds3::of([Point3::from(p)]));
+        assert!(bounds.lo <= value && value <= bounds.hi);
+        value
+    };
+    assert!(design("cube(4, \"a\");").density.is_none());
+    // Moves outside of the node move the density with the shape, moves inside do not.
+    let outside = design("translate(10, 0, 0) { density(\"x/10 + 0.5\") { cube(4, \"a\"); } }");
+    assert_eq!(at(&outside, [11.0, 0.0, 0.0]), 0.6);
+    let inside = design("density(\"x/20\") { translate(10, 0, 0) { cube(4, \"a\"); } }");
+    assert_eq!(at(&inside, [11.0, 0.0, 0.0]), 0.55);
+    // The distance is that of what it holds, under a scale as well.
+    let scaled = design("scale(2, 2, 2) { density(\"d + 2\") { cube(4, \"a\"); } }");
+    assert_eq!(at(&scaled, [0.0, 0.0, 3.0]), 1.5);
+    // The inner one counts where it is; what has none has the usual one.
+    let text = "union() {
+        density(\"0.5\") {
+            cube(4, \"a\");
+            translate(10, 0, 0) { density(\"0.7\") { cube(4, \"b\"); } }
+        }
+        translate(20, 0, 0) { cube(4, \"a\"); }
+    }";
+    let several = design(text);
+    for (x, density) in [(0.0, 0.5), (10.0, 0.7), (20.0, fgm_field::USUAL_DENSITY)] {
+        assert_eq!(at(&several, [x, 0.0, 0.0]), density);
+    }
+    // A difference and an intersection have that of their first child.
+    let text = "difference() { density(\"0.3\") { cube(4, \"a\"); } density(\"0.9\") { sphere(1, \"a\"); } }";
+    assert_eq!(at(&design(text), [1.5, 0.0, 0.0]), 0.3);
+}

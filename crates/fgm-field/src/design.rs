@@ -6,6 +6,9 @@ use fgm_core::{Bounds3, MaterialField, TriangleMesh};
 
 use crate::SharedField;
 
+/// The share of the inside that is filled where neither the design nor anybody else says.
+pub const USUAL_DENSITY: f64 = 0.15;
+
 /// The shape of a design.
 #[derive(Clone)]
 pub enum Geometry {
@@ -35,6 +38,8 @@ pub struct Design {
     pub materials: Vec<Material>,
     /// The volume fractions of the materials.
     pub fractions: Arc<dyn MaterialField + Send + Sync>,
+    /// The share of the inside to be filled at each place, 0 to 1, where the design says.
+    pub density: Option<SharedField>,
     /// A box around the solid, mm; nothing outside it is looked at.
     pub bounds: Bounds3,
 }

@@ -59,7 +59,7 @@ mod sampled;
 mod solid;
 mod tape;
 
-pub use design::{Design, Geometry, Material};
+pub use design::{Design, Geometry, Material, USUAL_DENSITY};
 pub use error::FieldError;
 pub use expr::{Arity, Expr, ExprError, ExprErrorKind};
 pub use expr_field::ExprField;

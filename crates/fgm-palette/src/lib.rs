@@ -16,7 +16,7 @@
 //! | [`Palette::band`] | mixture to colour, or to the two colours of an overlap |
 //! | [`Palette::band_within`] | the same where the overlap differs from place to place |
 //! | [`Palette::boundaries`], [`Palette::levels`] | where the band changes: what to contour |
-//! | [`Palette::order`] | the print order of a layer |
+//! | [`Palette::order`], [`Palette::order_of`] | the print order of a layer, with all colours or those that occur |
 //! | [`PaletteError`] | what cannot be, with the limit |
 //!
 //! The divisions and orders are those of the gradient-slicing paper (two materials: its section on
@@ -43,6 +43,7 @@ mod cells;
 mod error;
 mod palette;
 mod path;
+mod tour;
 
 pub use error::PaletteError;
 pub use palette::{Boundary, MAX_COLORS, Measure, Palette};

@@ -3,7 +3,7 @@ use fgm_core::{Band, ColorId, MAX_MATERIALS, Mixture};
 use crate::{
     PaletteError,
     cells::{self, Cell},
-    path,
+    path, tour,
 };
 
 /// The most colours of a palette.
@@ -248,6 +248,28 @@ impl Palette {
     /// that a layer starts in the colour in which the one below ended.
     pub fn order(&self, layer: usize) -> Vec<ColorId> {
         let mut ids: Vec<_> = (0..self.states.len() as u16).map(ColorId).collect();
+        if !layer.is_multiple_of(2) {
+            ids.reverse();
+        }
+        ids
+    }
+
+    /// The print order of a layer in which only some colours occur, each at most once: along the
+    /// gradient for two materials; else the order in which the fractions change least in all, the best
+    /// there is for up to ten colours, and for more one that no turn of a stretch and no move of one
+    /// colour improves. Reversed on every other layer. Colours that the palette does not have are
+    /// left out.
+    pub fn order_of(&self, used: &[ColorId], layer: usize) -> Vec<ColorId> {
+        let mut ids: Vec<ColorId> =
+            used.iter().copied().filter(|id| id.index() < self.states.len()).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let mixed = matches!(self.division, Division::Cells { .. });
+        if mixed && self.materials > 2 && ids.len() < self.states.len() {
+            let change = |a: usize, b: usize| self.state(ids[a]).distance(&self.state(ids[b]));
+            let order = tour::least_change(ids.len(), change);
+            ids = order.into_iter().map(|i| ids[i]).collect();
+        }
         if !layer.is_multiple_of(2) {
             ids.reverse();
         }

@@ -274,3 +274,34 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn the_colours_that_occur_are_ordered_by_least_change() {
+    let ids = |numbers: &[u16]| numbers.iter().copied().map(ColorId).collect::<Vec<_>>();
+    let two = Palette::new(2, 16).unwrap();
+    assert_eq!(two.order_of(&ids(&[9, 3, 3, 12, 40]), 0), ids(&[3, 9, 12]));
+    assert_eq!(two.order_of(&ids(&[9, 3, 12]), 1), ids(&[12, 9, 3]));
+    let all: Vec<ColorId> = (0..16).map(ColorId).collect();
+    for palette in [two, Palette::new(3, 16).unwrap()] {
+        assert_eq!(palette.order_of(&all, 4), palette.order(4));
+        assert_eq!(palette.order_of(&[], 0), []);
+    }
+    let mut better = 0;
+    for (materials, colors) in [(3, 64), (4, 34), (5, 21)] {
+        let palette = Palette::new(materials, colors).unwrap();
+        let sum = |order: &[ColorId]| -> f64 {
+            order.windows(2).map(|w| palette.state(w[0]).distance(&palette.state(w[1]))).sum()
+        };
+        for seed in 0..40_u64 {
+            let occurs = |i: &u16| (u64::from(*i) * 7919 + seed * 104_729) % 13 < 4;
+            let used: Vec<ColorId> = (0..colors as u16).filter(occurs).map(ColorId).collect();
+            let order = palette.order_of(&used, 0);
+            assert!(sum(&order) <= sum(&used) + 1e-9);
+            better += usize::from(sum(&order) < sum(&used) - 1e-9);
+            let mut back = palette.order_of(&used, 1);
+            back.reverse();
+            assert_eq!(order, back);
+        }
+    }
+    assert!(better > 60, "{better}");
+}

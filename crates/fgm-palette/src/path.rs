@@ -1,6 +1,9 @@
 //! Print orders of least change: a path that visits every cell once.
 
-use crate::cells::{self, Cell};
+use crate::{
+    cells::{self, Cell},
+    tour,
+};
 
 /// Sweeps of improvement over a path; it seldom takes more than a few.
 const SWEEPS: usize = 32;
@@ -12,13 +15,20 @@ const SWEEPS: usize = 32;
 /// - 3 materials: row by row, back and forth. No path of common sides exists for more than one
 ///   row, since triangles that point one way outnumber the others; this one leaves them only from
 ///   row to row, `k - 1` times, which is the least possible.
-/// - More: nearest first, then 2-opt and or-opt moves until none shortens it.
+/// - More: the best there is for few cells; else nearest first, then 2-opt and or-opt moves until
+///   none shortens it.
 pub(crate) fn path(materials: usize, k: usize) -> Vec<Cell> {
     match materials {
         2 => (0..k).map(|a| cell(&[a, k - 1 - a])).collect(),
         3 => snake(k),
         _ => {
-            let mut path = nearest_first(cells::all(materials, k), materials, k);
+            let cells = cells::all(materials, k);
+            if cells.len() <= tour::EXACT {
+                let step = |a: usize, b: usize| change(&cells[a], &cells[b], materials, k) as f64;
+                let order = tour::least_change(cells.len(), step);
+                return order.into_iter().map(|i| cells[i]).collect();
+            }
+            let mut path = nearest_first(cells, materials, k);
             improve(&mut path, materials, k);
             path
         }

@@ -5,6 +5,7 @@ mod graded;
 mod gyroid;
 mod honeycomb;
 mod join;
+mod lightning;
 mod pattern;
 mod rims;
 mod scan;
@@ -23,6 +24,7 @@ use crate::{
     },
 };
 pub use graded::infill_graded;
+pub use lightning::infill_lightning;
 pub use pattern::Pattern;
 
 /// From this density on a filling is solid.
@@ -63,6 +65,15 @@ impl InfillOptions {
             layer: 0,
             role: Role::SolidInfill,
         }
+    }
+
+    /// Direction of the lines of a solid filling, radians from +x, where it has straight ones.
+    pub fn solid_direction(&self) -> f64 {
+        let lines = match self.pattern {
+            Pattern::Aligned => Pattern::Aligned,
+            _ => Pattern::Rectilinear,
+        };
+        lines.families(self).angle
     }
 
     fn spacing(&self) -> f64 {
@@ -117,6 +128,7 @@ impl Infill for Pattern {
             }
             Self::Honeycomb => honeycomb::lines(region, options, inset),
             Self::Gyroid => gyroid::lines(region, options, inset),
+            Self::Lightning => infill_lightning(region, &lightning::Roof, 0.0, options, inset),
         }
     }
 }
@@ -186,11 +198,7 @@ fn sparse_lines(
 /// Solid lines over one polygon, as many as fit its extent best and spread evenly.
 fn solid_lines(polygon: &Polygon, options: &InfillOptions, inset: &dyn Inset) -> Vec<Path> {
     let spacing = options.spacing();
-    let lines = match options.pattern {
-        Pattern::Aligned => Pattern::Aligned,
-        _ => Pattern::Rectilinear,
-    };
-    let angle = lines.families(options).angle;
+    let angle = options.solid_direction();
     let (low, high) = scan::extent(polygon, angle);
     let extent = high - low;
     if !(extent > 0.0 && extent.is_finite()) {

@@ -4,9 +4,10 @@ use fgm_core::{Point2, Role, bead};
 
 use crate::{Piece, order::MEETS};
 
-/// The longest travel, in line spacings, that lies between neighbours: at 60 degrees to the
-/// boundary their ends are two spacings apart.
-const FARTHEST: f64 = 2.05;
+/// The longest travel, in line spacings, that may lie between neighbours, whatever the boundary.
+const FARTHEST: f64 = 30.0;
+/// How much longer than the boundary's angle says a travel may be: boundaries curve.
+const SLACK: f64 = 1.025;
 /// How far apart the lines themselves may be, as a share of that: no line lies between them.
 const BESIDE: f64 = 0.65;
 /// What a piece must have for every millimetre of the travel, mm.
@@ -20,15 +21,18 @@ const STEPS: usize = 40;
 /// Both are cut back by half the length of the bead that joins them: the volume stays, and the beads
 /// that turn on either side of the boundary come to lie a line's spacing apart, like those of walls.
 /// Only pieces of one colour, role and width are joined, not outer walls, and not what would run
-/// on in the same direction. `height` is the layer's, mm.
-pub fn join_ends(pieces: &mut Vec<Piece>, height: f64) {
+/// on in the same direction. `height` is the layer's, mm; `steepest` the greatest angle, in radians,
+/// between the lines and the boundary's normal. The steeper, the longer the turns, and the less of
+/// the area between them is covered: at 60 degrees they are two spacings long.
+pub fn join_ends(pieces: &mut Vec<Piece>, height: f64, steepest: f64) {
+    let reach = (SLACK / steepest.cos().max(0.0)).min(FARTHEST);
     pieces.dedup_by(|piece, into| {
         let alike =
             piece.role == into.role && piece.width == into.width && piece.color == into.color;
         alike
             && piece.role.is_part()
             && piece.role != Role::OuterWall
-            && join(into, piece, FARTHEST * bead::spacing(into.width, height))
+            && join(into, piece, reach * bead::spacing(into.width, height))
     });
 }
 
@@ -126,6 +130,7 @@ mod tests {
     use super::*;
     use fgm_core::ColorId;
     use proptest::prelude::*;
+    use std::f64::consts::FRAC_PI_3;
 
     fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
         let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
@@ -133,7 +138,7 @@ mod tests {
     }
 
     fn joined(mut pieces: Vec<Piece>) -> Vec<Vec<(f64, f64)>> {
-        join_ends(&mut pieces, 0.2);
+        join_ends(&mut pieces, 0.2, FRAC_PI_3);
         let round = |v: f64| (v * 1e6).round() / 1e6;
         let points = |p: &Piece| p.points.iter().map(|q| (round(q.x), round(q.y))).collect();
         pieces.iter().map(points).collect()
@@ -169,6 +174,7 @@ mod tests {
         #[test]
         fn the_length_stays(
             lines in prop::collection::vec((0.0..6.0f64, 6.0..12.0f64, -0.2..0.2f64), 2..20),
+            steepest in 0.0..1.6f64,
         ) {
             let line = |(i, &(from, to, tilt)): (usize, &(f64, f64, f64))| {
                 let y = 0.36 * i as f64;
@@ -178,7 +184,7 @@ mod tests {
             };
             let mut pieces: Vec<Piece> = lines.iter().enumerate().map(line).collect();
             let before: f64 = pieces.iter().map(Piece::length).sum();
-            join_ends(&mut pieces, 0.2);
+            join_ends(&mut pieces, 0.2, steepest);
             let after: f64 = pieces.iter().map(Piece::length).sum();
             prop_assert!((after / before - 1.0).abs() < 1e-7, "{before} to {after}");
         }

@@ -20,7 +20,7 @@
 //! |---|---|
 //! | lines | [`Path`] before it has a colour, [`Piece`] after |
 //! | borders | [`Inset`] (the seam), [`ClipperInset`] (its default), [`region`] (booleans) |
-//! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`gap_fill`] |
+//! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`infill_lightning`], [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`]; [`seam_length`] tells how far colours touch |
 //! | over air | [`Support`], [`mark_overhangs`], [`bridges`] |
@@ -70,6 +70,7 @@ mod infill;
 mod inset;
 mod join_ends;
 mod order;
+mod order_monotone;
 mod order_near;
 mod order_routes;
 mod overhang;
@@ -97,10 +98,10 @@ pub use brim::{BrimOptions, brim};
 pub use error::ToolpathError;
 pub use face_fill::FaceFill;
 pub use gap::{GapOptions, gap_fill};
-pub use infill::{Infill, InfillOptions, Pattern, infill, infill_graded};
+pub use infill::{Infill, InfillOptions, Pattern, infill, infill_graded, infill_lightning};
 pub use inset::{ClipperInset, Inset};
 pub use join_ends::join_ends;
-pub use order::{OrderOptions, RoleOrder, Seam, order, order_with};
+pub use order::{Monotonic, OrderOptions, RoleOrder, Seam, order, order_with};
 pub use order_routes::order_routes;
 pub use overhang::mark_overhangs;
 pub use path::{Path, Piece};

@@ -1,7 +1,7 @@
 use fgm_core::{ColorId, Point2, Role};
 
 use crate::{
-    Piece,
+    Piece, order_monotone,
     order_near::Near,
     travel::{Leg, improve},
 };
@@ -25,6 +25,10 @@ pub struct OrderOptions {
     /// Changes of the nearest-neighbour order that are tried for each piece, to shorten the
     /// travels; 0 leaves that order as it is.
     pub improve: u32,
+    /// Which skins are laid line beside line.
+    pub monotonic: Monotonic,
+    /// Direction of the skins' lines, radians from +x.
+    pub direction: f64,
 }
 
 impl Default for OrderOptions {
@@ -34,7 +38,34 @@ impl Default for OrderOptions {
             seam: Seam::Nearest,
             seam_point: Point2::ZERO,
             layer: 0,
-            improve: 64,
+            improve: 32,
+            monotonic: Monotonic::Off,
+            direction: 0.0,
+        }
+    }
+}
+
+/// Which skins are laid line beside line, in one direction of advance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Monotonic {
+    /// None: the least travel.
+    #[default]
+    Off,
+    /// Those seen from above.
+    Top,
+    /// Those seen from above and from below.
+    All,
+}
+
+impl Monotonic {
+    /// Whether it takes pieces of this role.
+    fn takes(self, role: Role) -> bool {
+        match role {
+            Role::TopSkin => self != Self::Off,
+            Role::BottomSkin => self == Self::All,
+            _ => false,
         }
     }
 }
@@ -88,7 +119,11 @@ pub fn order(pieces: Vec<Piece>, colors: &[ColorId], start: Point2) -> Vec<Piece
 /// meet end to end are printed without a travel between them. Then the order is changed where that
 /// shortens the travels. `start` is where the nozzle is before the first piece, mm.
 ///
-/// Every piece is kept, once. Pieces with points that are not finite come last in their colour.
+/// Skins that are to be [`Monotonic`] come last in their colour. Of two of their lines beside each
+/// other, in one colour, the one to the right of [`OrderOptions::direction`] is then printed first;
+/// lines joined into one piece are parted where that asks for it.
+///
+/// Every piece is kept, once, or parted so. Pieces with points that are not finite come last in their colour.
 /// The same pieces in the same order give the same answer.
 pub fn order_with(
     mut pieces: Vec<Piece>,
@@ -106,7 +141,7 @@ pub fn order_with(
     if options.seam == Seam::Random {
         scatter(&mut pieces, options.layer);
     }
-    let key = |p: &Piece| (rank[p.color.index()], p.color, class(p.role, options.roles));
+    let key = |p: &Piece| (rank[p.color.index()], p.color, class(p.role, options));
     pieces.sort_by_key(key);
 
     let mut out = Vec::with_capacity(pieces.len());
@@ -116,14 +151,19 @@ pub fn order_with(
         let same = key(first);
         let count = rest.partition_point(|p| key(p) <= same);
         let (group, others) = rest.split_at_mut(count);
-        at = order_group(group, at, options, &mut out);
+        at = if options.monotonic.takes(group[0].role) {
+            order_monotone::order(group, at, options.direction, &mut out)
+        } else {
+            order_group(group, at, options, &mut out)
+        };
         rest = others;
     }
     out
 }
 
-fn class(role: Role, order: RoleOrder) -> u8 {
-    match (role, order) {
+fn class(role: Role, options: &OrderOptions) -> u8 {
+    match (role, options.roles) {
+        (role, _) if options.monotonic.takes(role) => 4 + u8::from(role == Role::TopSkin),
         (Role::PurgeTower | Role::Skirt, _) => 0,
         (Role::OuterWall, RoleOrder::OuterFirst) | (Role::InnerWall, RoleOrder::InnerFirst) => 1,
         (Role::InnerWall, RoleOrder::OuterFirst) | (Role::OuterWall, RoleOrder::InnerFirst) => 2,
@@ -143,7 +183,10 @@ fn order_group(
     let mut near = Near::new(&ends.at);
     ends.link(&near);
     let mut legs = ends.tour(&mut near, start);
-    improve(&mut legs, start, options.improve);
+    if options.improve > 0 {
+        improve(&mut legs, start, options.improve);
+        ends.begin_loops(&mut legs, start);
+    }
 
     let mut taken = vec![false; pieces.len()];
     for leg in &legs {
@@ -342,6 +385,27 @@ impl Ends {
                 NONE => return id,
                 next => id = next,
             }
+        }
+    }
+
+    /// Begins every loop where the way from what is before it to what is after it is shortest.
+    fn begin_loops(&self, legs: &mut [Leg], start: Point2) {
+        let mut before = start;
+        for i in 0..legs.len() {
+            let leg = legs[i];
+            if leg.first == leg.last {
+                let next = legs.get(i + 1).map(|next| next.enter);
+                let way = |id: u32| {
+                    let at = self.at[id as usize];
+                    before.distance(at) + next.map_or(0.0, |next| at.distance(next))
+                };
+                let best = self.of_piece(leg.first).min_by(|&a, &b| way(a).total_cmp(&way(b)));
+                if let Some(id) = best.filter(|&id| way(id) < way(leg.first)) {
+                    let at = self.at[id as usize];
+                    legs[i] = Leg { enter: at, exit: at, first: id, last: id };
+                }
+            }
+            before = legs[i].exit;
         }
     }
 

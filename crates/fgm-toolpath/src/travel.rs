@@ -6,8 +6,6 @@ use crate::{Piece, order::MEETS};
 
 /// Most changes tried for one group of pieces, whatever its size.
 const MOST_CHANGES: usize = 1_000_000;
-/// Sweeps over the legs, at most; each is worth less than the one before.
-const SWEEPS: usize = 4;
 /// Shorter gains, mm, are rounding.
 const LEAST_GAIN: f64 = 1e-7;
 
@@ -35,8 +33,9 @@ pub(crate) fn travel(legs: &[Leg], start: Point2) -> f64 {
     from.zip(legs).map(|(from, leg)| from.distance(leg.enter)).sum()
 }
 
-/// Shortens the travels of a tour by 2-opt and or-opt moves: every travel longer than the mean is
-/// tried against the rest of the tour, and the best change is made.
+/// Shortens the travels of a tour by 2-opt and or-opt moves: the longest travel is tried against the
+/// rest of the tour, and the best change is made; then the next, down to the mean. A travel that no
+/// change shortens is not tried again until one moves it.
 ///
 /// Tries about `per_leg` changes a leg in all, so that the cost is linear in the number of legs.
 pub(crate) fn improve(legs: &mut [Leg], start: Point2, per_leg: u32) {
@@ -45,24 +44,16 @@ pub(crate) fn improve(legs: &mut [Leg], start: Point2, per_leg: u32) {
     if budget < count || count < 2 {
         return;
     }
-    let mut tour = Tour { gaps: vec![0.0; count + 1], legs, start };
+    let (gaps, tried) = (vec![0.0; count + 1], vec![false; count]);
+    let mut tour = Tour { gaps, tried, legs, start };
     tour.measure(0, count);
-    for _ in 0..SWEEPS {
-        let mean = tour.gaps.iter().sum::<f64>() / count as f64;
-        let mut changed = false;
-        for i in 0..count {
-            if tour.gaps[i] < mean.max(LEAST_GAIN) {
-                continue;
-            }
-            let Some(left) = budget.checked_sub(count) else { return };
-            budget = left;
-            if let Some(change) = tour.best_change(i) {
-                tour.make(change);
-                changed = true;
-            }
-        }
-        if !changed {
-            return;
+    while let Some(left) = budget.checked_sub(count)
+        && let Some(i) = tour.longest()
+    {
+        budget = left;
+        match tour.best_change(i) {
+            Some(change) => tour.make(change),
+            None => tour.tried[i] = true,
         }
     }
 }
@@ -80,6 +71,8 @@ struct Tour<'a> {
     start: Point2,
     /// The travels to each leg, and 0 after the last.
     gaps: Vec<f64>,
+    /// Whether nothing shortens the travel to each leg.
+    tried: Vec<bool>,
 }
 
 impl Tour<'_> {
@@ -92,7 +85,20 @@ impl Tour<'_> {
     fn measure(&mut self, from: usize, to: usize) {
         for i in from..=to.min(self.legs.len() - 1) {
             self.gaps[i] = self.before(i).distance(self.legs[i].enter);
+            self.tried[i] = false;
         }
+    }
+
+    /// The longest travel not tried yet, if it is longer than the mean.
+    fn longest(&self) -> Option<usize> {
+        let mean = self.gaps.iter().sum::<f64>() / self.legs.len() as f64;
+        let mut longest = (mean.max(LEAST_GAIN), None);
+        for (i, (&gap, tried)) in self.gaps.iter().zip(&self.tried).enumerate() {
+            if gap > longest.0 && !tried {
+                longest = (gap, Some(i));
+            }
+        }
+        longest.1
     }
 
     /// The travel from a point to leg `i`; none after the last.
@@ -226,8 +232,8 @@ mod tests {
             let mut legs: Vec<_> = legs.into_iter().enumerate().map(|(i, l)| leg(l, i)).collect();
             let was = travel(&legs, Point2::ZERO);
             let i = at.index(legs.len());
-            let gaps = vec![0.0; legs.len() + 1];
-            let mut tour = Tour { legs: &mut legs, start: Point2::ZERO, gaps };
+            let (gaps, tried) = (vec![0.0; legs.len() + 1], vec![false; legs.len()]);
+            let mut tour = Tour { legs: &mut legs, start: Point2::ZERO, gaps, tried };
             tour.measure(0, usize::MAX);
             if let Some(change) = tour.best_change(i) {
                 tour.make(change);

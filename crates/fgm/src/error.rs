@@ -56,8 +56,9 @@ pub enum SliceError {
     },
     /// A density that varies, where the pattern's lines cannot follow.
     #[error(
-        "infill.density varies, and {pattern} lines cannot follow it: choose rectilinear, aligned, \
-         grid or triangles as infill.pattern"
+        "the density of the infill varies, by infill.density or by the design, and {pattern} lines \
+         cannot follow it: choose rectilinear, aligned, grid or triangles as infill.pattern, or a \
+         number as infill.density"
     )]
     GradedPattern {
         /// The pattern asked for.

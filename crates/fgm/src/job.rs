@@ -1,8 +1,8 @@
 use std::ops::Range;
 
 use fgm_contour::ContourOptions;
-use fgm_core::{Point2, Polygon, Role};
-use fgm_field::{Design, ExprField};
+use fgm_core::{ColorId, Point2, Polygon, Role};
+use fgm_field::Design;
 use fgm_palette::Palette;
 use fgm_toolpath::{
     ClipperInset, OrderOptions, Piece, brim, join_ends, mark_overhangs, order_routes, order_with,
@@ -17,6 +17,8 @@ use crate::{
     boundary_lines::BoundaryLines,
     choice::Strategy,
     colors,
+    covers::Covers,
+    density::Filling,
     error::SliceError,
     foot,
     layers::{Layer, Layers},
@@ -41,8 +43,9 @@ pub(crate) struct Job<'a> {
     pub(crate) isolines: ContourOptions,
     pub(crate) boundaries: BoundaryLines<'a>,
     pub(crate) inset: ClipperInset,
-    /// The density of the infill, percent, where it varies.
-    pub(crate) density: Option<ExprField>,
+    pub(crate) filling: Filling,
+    /// What lies above, for infill that asks.
+    pub(crate) covers: Option<Covers>,
     /// What changes of colour need, where hidden filling is to take it.
     pub(crate) hidden_purges: Option<Needs>,
     /// The layer that lies on the bed, from 0.
@@ -118,15 +121,18 @@ impl Job<'_> {
         let region = drawn.as_ref().unwrap_or(&outline.region).as_slice();
         let below = timed(&mut seconds.contour, || self.below(layer))?;
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
-        let colors = self.palette.order(layer.index);
         let (mut merged, mut seams) = (1, Seams::default());
         let (pieces, faces) = match self.settings.slice.strategy {
             Strategy::Sectioned => {
                 let sectioned::Sectioned { pieces, faces, seams: of_layer } =
                     sectioned::pieces(self, layer, region, below.as_deref(), &mut seconds)?;
                 seams = of_layer;
+                let colors = self.colors(pieces.iter(), layer);
                 let corner = self.design.bounds.max.truncate();
-                let options = self.settings.order_options(layer.index, corner);
+                let options = OrderOptions {
+                    direction: sectioned::skin_direction(self, layer),
+                    ..self.settings.order_options(layer.index, corner)
+                };
                 let order = || {
                     let mut pieces = match &self.hidden_purges {
                         Some(needs) => {
@@ -134,7 +140,7 @@ impl Job<'_> {
                         }
                         None => order_with(pieces, &colors, start, &options),
                     };
-                    join_ends(&mut pieces, layer.height);
+                    join_ends(&mut pieces, layer.height, self.settings.section.turns.to_radians());
                     pieces
                 };
                 (timed(&mut seconds.toolpath, order), faces)
@@ -142,6 +148,7 @@ impl Job<'_> {
             Strategy::Against => {
                 let filled = against::routes(self, layer, region, &mut seconds)?;
                 merged = filled.merged;
+                let colors = self.colors(filled.routes.iter().flatten(), layer);
                 let order = || order_routes(filled.routes, &colors, start);
                 (timed(&mut seconds.toolpath, order), filled.faces)
             }
@@ -180,6 +187,23 @@ impl Job<'_> {
         let all = self.settings.slice.strategy == Strategy::Against;
         let is_wall = |role| matches!(role, Role::OuterWall | Role::InnerWall | Role::GapFill);
         mark_overhangs(pieces, below.border(), share, |role| all || is_wall(role))
+    }
+
+    /// The colours of pieces in the order of printing.
+    fn colors<'p>(&self, pieces: impl Iterator<Item = &'p Piece>, layer: &Layer) -> Vec<ColorId> {
+        let mut occurs = vec![false; self.palette.colors()];
+        for piece in pieces {
+            if let Some(occurs) = occurs.get_mut(piece.color.index()) {
+                *occurs = true;
+            }
+        }
+        let used: Vec<ColorId> = (0..)
+            .map(ColorId)
+            .zip(&occurs)
+            .filter(|(_, occurs)| **occurs)
+            .map(|(id, _)| id)
+            .collect();
+        self.palette.order_of(&used, layer.index)
     }
 
     /// On the first layer, skirt and brim around the part in the colour that comes first.

@@ -40,6 +40,7 @@ mod boundary_lines;
 mod choice;
 mod colors;
 mod cooling;
+mod covers;
 mod density;
 mod error;
 mod extent;

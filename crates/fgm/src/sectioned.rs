@@ -6,13 +6,12 @@ use fgm_contour::ContourOptions;
 use fgm_core::{Band, Polygon, Role, Sectioner, bead};
 use fgm_toolpath::{
     BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, bridges,
-    infill, infill_graded, region, seam_length, section, skins_with, walls,
+    infill, infill_graded, infill_lightning, region, seam_length, section, skins_with, walls,
 };
 
 use crate::{
     boundaries::Bands,
     choice::{SectionBy, Zipper},
-    density::Shares,
     error::SliceError,
     field_sections::FieldSections,
     graded::{GradedLayer, check_material},
@@ -102,7 +101,7 @@ struct Neighbours {
 impl Neighbours {
     fn of(job: &Job<'_>, layer: &Layer, seconds: &mut StageSeconds) -> Result<Self, SliceError> {
         // What is solid anyway has no skins, unless it matters what is seen of it.
-        if is_solid(job) && job.hidden_purges.is_none() {
+        if job.filling.is_solid() && job.hidden_purges.is_none() {
             return Ok(Self { above: Vec::new(), below: Vec::new() });
         }
         let get = |index: Option<usize>| match index {
@@ -121,9 +120,33 @@ impl Neighbours {
     }
 }
 
-/// Whether the part is filled all over.
-fn is_solid(job: &Job<'_>) -> bool {
-    job.settings.infill.density.percent().is_some_and(|percent| percent >= 100.0)
+/// How a layer is filled.
+fn sparse_options(job: &Job<'_>, layer: &Layer) -> InfillOptions {
+    let settings = job.settings;
+    let (angle, turning) = settings.infill_direction(layer.index);
+    InfillOptions {
+        pattern: settings.infill.pattern,
+        density: job.filling.same().unwrap_or(0.0),
+        angle,
+        width: settings.layer.bead_width,
+        height: layer.height,
+        z: layer.cut,
+        layer: turning,
+        role: Role::Infill,
+    }
+}
+
+/// How a layer's skins are filled.
+fn solid_options(job: &Job<'_>, layer: &Layer) -> InfillOptions {
+    let sparse = sparse_options(job, layer);
+    // Where all is solid the pattern speaks for skins as well.
+    let pattern = if job.filling.is_solid() { sparse.pattern } else { Pattern::Rectilinear };
+    InfillOptions { pattern, density: 1.0, ..sparse }
+}
+
+/// Direction of the lines of a layer's skins, radians.
+pub(crate) fn skin_direction(job: &Job<'_>, layer: &Layer) -> f64 {
+    solid_options(job, layer).solid_direction()
 }
 
 fn paths(
@@ -138,27 +161,17 @@ fn paths(
     let options = WallOptions::new(settings.walls.count, width, layer.height);
     let walls = walls(region, &options, &job.inset);
     let mut paths = walls.paths;
-    let (angle, turning) = settings.infill_direction(layer.index);
-    let sparse = InfillOptions {
-        pattern: settings.infill.pattern,
-        density: settings.infill.density.percent().unwrap_or(0.0) / 100.0,
-        angle,
-        width,
-        height: layer.height,
-        z: layer.cut,
-        layer: turning,
-        role: Role::Infill,
-    };
+    let sparse = sparse_options(job, layer);
     let fill = |region: &[Polygon], options: InfillOptions| infill(region, &options, &job.inset);
     let sparse = match &job.hidden_purges {
-        Some(_) if is_solid(job) => InfillOptions { role: Role::SolidInfill, ..sparse },
+        Some(_) if job.filling.is_solid() => InfillOptions { role: Role::SolidInfill, ..sparse },
         _ => sparse,
     };
     let inside = match under.filter(|_| settings.bridges.enabled) {
         Some(under) => bridged(job, walls.inside, under, &sparse, &mut paths),
         None => walls.inside,
     };
-    if is_solid(job) && job.hidden_purges.is_none() {
+    if job.filling.is_solid() && job.hidden_purges.is_none() {
         let role = match layer.index {
             0 => Role::BottomSkin,
             i if i + 1 == job.layers.count() => Role::TopSkin,
@@ -170,13 +183,18 @@ fn paths(
     let above: Vec<&[Polygon]> = neighbours.above.iter().map(|o| o.region.as_slice()).collect();
     let below: Vec<&[Polygon]> = neighbours.below.iter().map(|o| o.region.as_slice()).collect();
     let skins = skins_with(&inside, &above, &below, width, &job.inset);
-    let solid = InfillOptions { pattern: Pattern::Rectilinear, density: 1.0, ..sparse };
+    let solid = solid_options(job, layer);
     paths.extend(fill(&skins.top, InfillOptions { role: Role::TopSkin, ..solid }));
     paths.extend(fill(&skins.bottom, InfillOptions { role: Role::BottomSkin, ..solid }));
-    if let Some(density) = &job.density {
-        let shares = Shares::at(density, layer.cut);
+    if let Some(shares) = job.filling.at_z(layer.cut) {
         let step = settings.contour.cell;
         paths.extend(infill_graded(&skins.sparse, &shares, step, &sparse, &job.inset)?);
+    } else if let Some(covers) = &job.covers {
+        let depths = covers.depths(&job.outlines, layer)?;
+        // Branches stand on each other, so they keep their direction.
+        let sparse = InfillOptions { angle: settings.infill.angle.to_radians(), ..sparse };
+        let reach = settings.infill.reach;
+        paths.extend(infill_lightning(&skins.sparse, &depths, reach, &sparse, &job.inset));
     } else if sparse.density > 0.0 {
         paths.extend(fill(&skins.sparse, sparse));
     }

@@ -11,7 +11,9 @@ use crate::density::Density;
 use crate::purge::{PurgeInto, PurgeLayout};
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
-use fgm_toolpath::{BrimOptions, FaceFill, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions};
+use fgm_toolpath::{
+    BrimOptions, FaceFill, Monotonic, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions,
+};
 
 /// One line of the list of settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,6 +124,8 @@ settings! {
         by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
         #[doc = "Shorter pieces are shared out between their neighbours on the path, where no place is then off by more than a band; 0 for none."]
         shortest: f64 = 3.0, "3", "mm";
+        #[doc = "Steepest boundary between colours at which the lines of a filling turn round instead of travelling, by the angle between them and its normal; at more, turns leave gaps."]
+        turns: f64 = 60.0, "60", "degrees";
     }
     #[doc = "Walls, strategy sectioned."]
     walls: WallSettings {
@@ -136,6 +140,8 @@ settings! {
         top: usize = 4, "4", "layers";
         #[doc = "Solid layers over a bottom."]
         bottom: usize = 4, "4", "layers";
+        #[doc = "Which are laid line beside line in one direction of advance, within each colour, so that they shine alike; at the cost of some travel."]
+        monotonic: Monotonic = Monotonic::Off, "\"off\"", "off | top | all";
     }
     #[doc = "What lies over air between places that hold it, strategy sectioned; its speed and fan are the printer's speed.bridge and fan.bridge."]
     bridges: BridgeSettings {
@@ -148,14 +154,16 @@ settings! {
     }
     #[doc = "Filling between the walls, strategy sectioned."]
     infill: InfillSettings {
-        #[doc = "How much of the inside is filled: a number, or a formula of x, y, z and the distance d in the design's coordinates, such as \"10 + 40 z/50\", for straight patterns. Skins stay solid."]
-        density: Density = Density::Percent(15.0), "15", "percent | \"formula\"";
+        #[doc = "How much of the inside is filled: a number; a formula of x, y, z and the distance d in the design's coordinates, such as \"10 + 40 z/50\", for straight patterns; or the design's own density, which is 15 where it has none. Skins stay solid."]
+        density: Density = Density::Design, "\"design\"", "percent | \"formula\" | \"design\"";
         #[doc = "How the lines run."]
-        pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | aligned | grid | triangles | honeycomb | concentric | gyroid";
+        pattern: Pattern = Pattern::Rectilinear, "\"rectilinear\"", "rectilinear | aligned | grid | triangles | honeycomb | concentric | gyroid | lightning";
         #[doc = "Direction of the lines; rectilinear lines and skins are turned by a right angle on every other layer."]
         angle: f64 = 45.0, "45", "degrees";
         #[doc = "Directions of the lines, layer by layer and then from the first again, in place of angle and its turn."]
         angles: Vec<f64> = Vec::new(), "[]", "[degrees, ...]";
+        #[doc = "How far below a roof lightning infill still gets thinner; what its branches hold up within this height, they hold up alone."]
+        reach: f64 = 20.0, "20", "mm";
     }
     #[doc = "Filling of faces, strategy against."]
     against: AgainstSettings {
@@ -174,6 +182,8 @@ settings! {
         seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest";
         #[doc = "The point of the aligned seam, x and y in the design's coordinates."]
         seam_point: Option<[f64; 2]> = None, "the design's corner of greatest x and y", "[mm, mm]";
+        #[doc = "How many changes of the order are tried to shorten the travels, for each piece."]
+        effort: u32 = 32, "32", "count";
     }
     #[doc = "Where the old colour goes, strategy sectioned."]
     purge: PurgeSettings {
@@ -285,7 +295,15 @@ impl Settings {
             seam: self.order.seam,
             seam_point: self.order.seam_point.map_or(corner, Point2::from),
             layer: layer as u32,
-            ..OrderOptions::default()
+            improve: self.order.effort,
+            monotonic: match self.infill.pattern {
+                // Loops have no direction of advance.
+                Pattern::Concentric if self.infill.density == Density::Percent(100.0) => {
+                    Monotonic::Off
+                }
+                _ => self.skins.monotonic,
+            },
+            direction: 0.0,
         }
     }
 
@@ -341,6 +359,7 @@ impl Settings {
         within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
         within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
         within("section.shortest", self.section.shortest, 0.0..=1000.0, "0 to 1000 mm")?;
+        within("section.turns", self.section.turns, 0.0..=90.0, "0 to 90 degrees")?;
         within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
         within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
         let density = self.infill.density.percent().unwrap_or(0.0);
@@ -349,6 +368,9 @@ impl Settings {
         for angle in &self.infill.angles {
             within("infill.angles", *angle, -3600.0..=3600.0, "an angle in degrees")?;
         }
+        within("infill.reach", self.infill.reach, 0.0..=200.0, "0 to 200 mm")?;
+        let effort = f64::from(self.order.effort);
+        within("order.effort", effort, 0.0..=1e6, "0 to 1000000")?;
         for x in self.order.seam_point.into_iter().flatten() {
             within("order.seam_point", x, -1e6..=1e6, "-1000000 to 1000000 mm")?;
         }

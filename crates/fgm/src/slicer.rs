@@ -1,10 +1,10 @@
 use std::{io::Write, ops::Range, time::Instant};
 
 use fgm_core::{Bounds3, Interval, Mixture, Point3};
-use fgm_field::Design;
+use fgm_field::{Design, USUAL_DENSITY};
 use fgm_gcode::{Machine, MachineKind, Summary, Writer, WriterOptions};
 use fgm_palette::Palette;
-use fgm_toolpath::{ClipperInset, Inset};
+use fgm_toolpath::{ClipperInset, Inset, Pattern};
 
 use crate::{
     ahead::Ahead,
@@ -13,6 +13,8 @@ use crate::{
     choice::{ColorCount, Strategy, Zipper},
     colors,
     cooling::Cooling,
+    covers::Covers,
+    density::Density,
     error::SliceError,
     extent, head,
     job::{Job, PlannedLayer},
@@ -309,10 +311,13 @@ impl<'a> Slicer<'a> {
         let skins = &self.settings.skins;
         let span = AHEAD_PER_THREAD * threads + skins.top + skins.bottom + 1;
         let infill = &self.settings.infill;
-        let density = infill.density.field(self.design)?;
-        if density.is_some() && !infill.pattern.is_straight() {
+        let filling = infill.density.filling(self.design)?;
+        if filling.same().is_none() && !infill.pattern.is_straight() {
             return Err(SliceError::GradedPattern { pattern: infill.pattern });
         }
+        let sees = infill.pattern == Pattern::Lightning && !filling.is_solid();
+        let covers = sees.then(|| Covers::new(self.design, self.settings, span, layers));
+        let span = span + covers.as_ref().map_or(0, Covers::layers);
         let bands = self.bands(palette);
         let zipped = bands.reach() > 0.0;
         Ok(Job {
@@ -326,7 +331,8 @@ impl<'a> Slicer<'a> {
             isolines: self.settings.isoline_options(),
             boundaries: BoundaryLines::new(self.design, bands, self.settings.isoline_options()),
             inset: ClipperInset { simplify: self.settings.inset_simplification() },
-            density,
+            filling,
+            covers,
             hidden_purges: purge::hides(self.machine, self.settings)
                 .then(|| self.needs(colors::ids(palette).map(|c| palette.state(c)).collect())),
             first: 0,
@@ -422,6 +428,9 @@ impl<'a> Slicer<'a> {
         purge: Option<&Purge>,
     ) -> Settings {
         let mut resolved = self.settings.clone();
+        if resolved.infill.density == Density::Design && self.design.density.is_none() {
+            resolved.infill.density = Density::Percent(100.0 * USUAL_DENSITY);
+        }
         let (least, most) = self.settings.bead_widths();
         resolved.slice.first_layer = range.start + 1;
         resolved.slice.last_layer = Some(range.end);

@@ -67,3 +67,26 @@ fn walls_come_in_the_order_asked_for() {
         }
     }
 }
+
+/// Two blocks beside each other, both graded from left to right: each colour is printed once a layer,
+/// wherever it is.
+#[test]
+fn islands_are_one_plate() {
+    let source = r#"fgrade(["abs(x)/20 - 0.25", "1.25 - abs(x)/20"], ["a", "b"]) {
+        translate(-15, 0, 1) { rectprism(20, 10, 2); }
+        translate(15, 0, 1) { rectprism(20, 10, 2); }
+    }"#;
+    for strategy in [Strategy::Sectioned, Strategy::Against] {
+        let mut settings = settings(strategy, 6);
+        settings.purge.enabled = Some(false);
+        (settings.lead.volume, settings.compensation.enabled) = (Some(0.0), Some(false));
+        let beads = deposit(&slice(&parse(source), "generic-mixing", &settings).1).beads;
+        for layer in beads.chunk_by(|a, b| a.layer == b.layer) {
+            let runs = layer.chunk_by(|a, b| a.color == b.color);
+            let sides =
+                runs.map(|run| [-1.0, 1.0].map(|side| run.iter().any(|b| b.from.x * side > 0.0)));
+            let sides: Vec<_> = sides.collect();
+            assert_eq!(sides, vec![[true, true]; 6], "{strategy}, layer {}", layer[0].layer);
+        }
+    }
+}

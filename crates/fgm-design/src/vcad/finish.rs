@@ -9,6 +9,7 @@ use fgm_field::{
 };
 use glam::{DAffine3, DVec3};
 
+use super::density::Density;
 use super::lower::{Lowering, union};
 use super::number;
 use super::paint::Paint;
@@ -79,7 +80,8 @@ impl Lowering<'_> {
         }
         let bounds = mesh.bounds();
         let shape = Shape::Mesh(Arc::new(mesh));
-        let mut part = Part { shape, bounds, tight: true, paint: Paint::Inherit, void: false };
+        let (paint, density) = (Paint::Inherit, Density::Inherit);
+        let mut part = Part { shape, bounds, tight: true, paint, density, void: false };
         let file = |error| DesignError::file(path, Problem::Field { error });
         if let Some(by) = self.fit(&part)? {
             part = part.transformed(&by).map_err(file)?;
@@ -190,6 +192,7 @@ impl Lowering<'_> {
             geometry: part.shape.geometry(),
             materials,
             fractions,
+            density: part.density.field(),
             bounds: part.bounds,
         })
     }

@@ -118,6 +118,20 @@ impl Lowering<'_> {
         self.grade(child, &weights, mode, void).map_err(at)
     }
 
+    /// Says how densely a part is to be filled.
+    pub(super) fn density(&self, node: &Node, mut child: Part) -> Result<Part, DesignError> {
+        let [text] = node.args.as_slice() else { return Err(self.wrong_arguments(node)) };
+        let expr = number::expression(self.source, text_span(text), &node.names)?;
+        let field: SharedField = if expr.uses_distance() {
+            let at = |error| self.source.error(node.name_span.clone(), Problem::Field { error });
+            Arc::new(ExprField::with_distance(&expr, child.shape.field().map_err(at)?))
+        } else {
+            Arc::new(ExprField::new(&expr))
+        };
+        child.density = child.density.filled(&field);
+        Ok(child)
+    }
+
     /// Gives a part its fractions, and cuts away where there is nothing.
     fn grade(
         &self,

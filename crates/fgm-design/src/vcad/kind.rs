@@ -18,6 +18,7 @@ pub(crate) enum NodeKind {
     Fgrade,
     Blend,
     Convolve,
+    Density,
     // Leaves.
     Sphere,
     Cube,
@@ -36,7 +37,7 @@ pub(crate) enum NodeKind {
 struct Row(&'static str, NodeKind, &'static str);
 
 /// Every node. Where a kind has two names the first is the usual one.
-const NODES: [Row; 27] = [
+const NODES: [Row; 28] = [
     Row("root", NodeKind::Root, "((min), (max), (voxel)) or nothing"),
     Row("union", NodeKind::Union, "no arguments"),
     Row("intersection", NodeKind::Intersection, "no arguments"),
@@ -61,6 +62,7 @@ const NODES: [Row; 27] = [
     ),
     Row("blend", NodeKind::Blend, "(nx, ny, nz)"),
     Row("convolve", NodeKind::Convolve, "([[[...]]])"),
+    Row("density", NodeKind::Density, "(\"expression\")"),
     Row("sphere", NodeKind::Sphere, "(radius) or (radius, \"material\")"),
     Row("cube", NodeKind::Cube, "(side) or (side, \"material\")"),
     Row("rectprism", NodeKind::Rectprism, "(x, y, z) or ((x, y, z)), then \"material\" or nothing"),

@@ -12,6 +12,7 @@ use fgm_field::{
 use glam::DAffine3;
 
 use super::ast::{Arg, Node, Value};
+use super::density::Density;
 use super::kind::NodeKind;
 use super::lower::{Lowering, VOID};
 use super::number;
@@ -56,7 +57,8 @@ impl Lowering<'_> {
                 return Err(self.source.error(node.name_span.clone(), problem));
             }
         };
-        Ok(Part { shape: body.shape, bounds: body.bounds, tight: body.tight, paint, void })
+        let Body { shape, bounds, tight } = body;
+        Ok(Part { shape, bounds, tight, paint, density: Density::Inherit, void })
     }
 
     fn body(&mut self, node: &Node, args: &[Arg]) -> Result<Body, DesignError> {

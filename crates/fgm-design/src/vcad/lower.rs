@@ -13,6 +13,7 @@ use fgm_field::{
 use glam::{DAffine3, DMat3};
 
 use super::ast::{Arg, Node, Value};
+use super::density::Density;
 use super::kind::NodeKind;
 use super::leaf::{cut_to, point};
 use super::paint::Paint;
@@ -107,6 +108,10 @@ impl<'a> Lowering<'a> {
             (NodeKind::Fgrade, _) => {
                 let child = union(parts).map_err(at)?;
                 self.fgrade(node, child)
+            }
+            (NodeKind::Density, [Arg { value: Value::Text(_), .. }]) => {
+                let child = union(parts).map_err(at)?;
+                self.density(node, child)
             }
             (NodeKind::Blend | NodeKind::Convolve, _) => {
                 let kernel = self.kernel(node)?;
@@ -260,11 +265,13 @@ fn joined(mut parts: Vec<Part>) -> Result<Part, FieldError> {
         return Ok(parts.remove(0));
     }
     let fields = fields(&parts)?;
+    let of_density = fields.iter().cloned().zip(parts.iter().map(|p| p.density.clone()));
     Ok(Part {
         shape: Shape::Field(Arc::new(Union(fields.clone()))),
         bounds: parts.iter().fold(Bounds3::EMPTY, |all, part| all.union(&part.bounds)),
         tight: parts.iter().all(|part| part.tight),
         void: false,
+        density: Density::of_union(of_density.collect()),
         paint: Paint::of_union(
             fields.into_iter().zip(parts.into_iter().map(|p| p.paint)).collect(),
         ),
@@ -295,7 +302,8 @@ fn intersection(parts: Vec<Part>, radius: Option<f64>) -> Result<Part, FieldErro
         Some(radius) => Arc::new(SmoothIntersection { parts: fields, radius }),
         None => Arc::new(Intersection(fields)),
     };
-    Ok(Part { shape: Shape::Field(field), bounds, tight: false, paint: first.paint, void })
+    let Part { paint, density, .. } = first;
+    Ok(Part { shape: Shape::Field(field), bounds, tight: false, paint, density, void })
 }
 
 fn difference(parts: Vec<Part>, radius: Option<f64>) -> Result<Part, FieldError> {

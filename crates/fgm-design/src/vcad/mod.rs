@@ -1,6 +1,7 @@
 //! The .vcad language: text to tokens to nodes to parts to a design.
 
 mod ast;
+mod density;
 mod finish;
 mod grade;
 mod kind;

@@ -4,6 +4,7 @@ use fgm_core::{Bounds3, Point3, TriangleMesh};
 use fgm_field::{FieldError, Geometry, MeshDistance, SharedField, Transformed};
 use glam::DAffine3;
 
+use super::density::Density;
 use super::paint::Paint;
 use crate::mesh;
 
@@ -16,6 +17,8 @@ pub(crate) struct Part {
     /// Whether the bounds touch the shape on every side.
     pub(crate) tight: bool,
     pub(crate) paint: Paint,
+    /// How densely it is to be filled.
+    pub(crate) density: Density,
     /// Empty space: what it is combined with loses this.
     pub(crate) void: bool,
 }
@@ -63,7 +66,8 @@ impl Part {
                 (Shape::Field(field), bounds, self.tight && keeps_axes(by))
             }
         };
-        Ok(Self { shape, bounds, tight, paint: self.paint.transformed(by)?, void: self.void })
+        let (paint, density) = (self.paint.transformed(by)?, self.density.transformed(by)?);
+        Ok(Self { shape, bounds, tight, paint, density, void: self.void })
     }
 
     /// What is in both bounds; tight only where one of them is the result.

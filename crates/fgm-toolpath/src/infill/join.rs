@@ -314,7 +314,7 @@ impl<'a> Joiner<'a> {
     }
 }
 
-fn turn(line: i64) -> u32 {
+pub(super) fn turn(line: i64) -> u32 {
     (line + TURN_ZERO).rem_euclid(1 << 31) as u32
 }
 

@@ -23,11 +23,14 @@ pub enum Pattern {
     Concentric,
     /// A triply periodic surface without straight lines: equally strong every way.
     Gyroid,
+    /// Branches that hold up what is above and nothing else, by
+    /// [`infill_lightning`](crate::infill_lightning); by itself, all of them.
+    Lightning,
 }
 
 impl Pattern {
     /// Every pattern.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Rectilinear,
         Self::Aligned,
         Self::Grid,
@@ -35,6 +38,7 @@ impl Pattern {
         Self::Honeycomb,
         Self::Concentric,
         Self::Gyroid,
+        Self::Lightning,
     ];
 
     /// Its name in settings.
@@ -47,6 +51,7 @@ impl Pattern {
             Self::Honeycomb => "honeycomb",
             Self::Concentric => "concentric",
             Self::Gyroid => "gyroid",
+            Self::Lightning => "lightning",
         }
     }
 }
