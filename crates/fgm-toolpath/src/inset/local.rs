@@ -11,6 +11,9 @@ const SHARPEST_REFLEX: f64 = 0.5;
 /// The same where the moved corner lies inside the old one: only to keep the division tame.
 const SHARPEST_CONVEX: f64 = 0.02;
 
+/// How far a mitre reaches beyond a round corner to count as a tip, mm.
+const BLUNT: f64 = 1e-3;
+
 /// How often turned edges are looked for before a ring is left to the sweep.
 const MOST_PASSES: usize = 12;
 
@@ -35,7 +38,54 @@ pub(super) fn offset(region: &[Polygon], distance: f64) -> Option<Vec<Polygon>> 
             border.any_within(a, b, reach - SLACK, own)
         })
     });
-    (!meets).then_some(out)
+    (!meets && !tips_meet(&out, distance)).then_some(out)
+}
+
+/// Whether mitres of reflex corners cross each other: further than the distance from every border,
+/// they may meet where no edge comes too near to one.
+fn tips_meet(region: &[Polygon], distance: f64) -> bool {
+    let mut sides = Vec::new();
+    // For each side of a tip the one that lies on the same edge, if the next corner is a tip, too.
+    let mut opposite: Vec<u32> = Vec::new();
+    for ring in region.iter().flat_map(Polygon::rings) {
+        let (n, first) = (ring.points.len(), sides.len());
+        let at = |i: usize| ring.points[i % n];
+        let mut last_tip = None;
+        for i in 0..n {
+            let (p, u, v) = (at(i), at(i) - at(i + n - 1), at(i + 1) - at(i));
+            let (before, after) = (u.length(), v.length());
+            let open = 1.0 + u.dot(v) / (before * after);
+            let reflex = u.perp_dot(v) * distance < 0.0;
+            if !reflex || distance.abs() * ((2.0 / open).sqrt() - 1.0) <= BLUNT {
+                continue;
+            }
+            // As far as a round corner would not reach; two sides of one edge do not touch.
+            let reach = distance.abs() * ((2.0 - open).max(0.0) / open).sqrt();
+            let share = |length: f64| (reach / length).min(0.49);
+            let side = sides.len() as u32;
+            sides.extend([(p - u * share(before), p), (p, p + v * share(after))]);
+            opposite.extend([NO_EDGE; 2]);
+            if last_tip == Some(i.wrapping_sub(1)) {
+                opposite[side as usize] = side - 1;
+                opposite[side as usize - 1] = side;
+            }
+            last_tip = Some(i);
+            if i + 1 == n && reflex_at_start(&sides[first..], at(0)) {
+                opposite[first] = side + 1;
+                opposite[side as usize + 1] = first as u32;
+            }
+        }
+    }
+    let near = NearBorder::of_edges(&sides, BLUNT);
+    (0..)
+        .zip(&sides)
+        .zip(&opposite)
+        .any(|((side, &(a, b)), &other)| near.any_within(a, b, SLACK, [side, side ^ 1, other]))
+}
+
+/// Whether the first of a ring's tips is at its first corner.
+fn reflex_at_start(sides: &[(Point2, Point2)], corner: Point2) -> bool {
+    sides.first().is_some_and(|side| side.1 == corner)
 }
 
 /// Every ring's vertices moved, with no look at other borders; `None` where an edge turns round.

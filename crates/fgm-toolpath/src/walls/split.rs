@@ -23,8 +23,8 @@ const SHORT: f64 = 0.75;
 /// A bay that stays this near the centre of its disc, in radii, is a corner and no thin part.
 const CORNER: f64 = 2.1;
 /// A reflex corner is sharp where the cosine of its turn is less than this times the sine: from
-/// 27 degrees on.
-const SHARP: f64 = 2.0;
+/// 11 degrees on.
+const SHARP: f64 = 5.0;
 /// `1 + cos` of the turn from which on a moved corner would lie too far away.
 const SHARPEST: f64 = 0.05;
 
@@ -47,7 +47,7 @@ struct Side {
     /// Whether moving the vertex was cut short at a sharp corner.
     blunt: Vec<bool>,
     fits: Vec<bool>,
-    /// Edges that fit in their middle only.
+    /// Edges that fit in their middle only, in order.
     partial: Vec<usize>,
 }
 
@@ -211,8 +211,8 @@ impl Side {
         Some(())
     }
 
-    /// Whether a disc fits that touches a sharp reflex corner and neither of its edges: something
-    /// thick between such corners has no edge that fits.
+    /// Whether a disc fits that touches a sharp reflex corner, or the middle of an edge at it, while
+    /// neither edge fits: something thick between such corners has no edge that fits.
     fn corner_hides(&self, border: &NearBorder, radius: f64) -> bool {
         let n = self.points.len();
         (0..n).any(|i| {
@@ -226,6 +226,14 @@ impl Side {
             let turn = u.perp_dot(v);
             if turn >= 0.0 || u.dot(v) > SHARP * -turn {
                 return false;
+            }
+            // Unless its thick part is the one beside it.
+            let alone = |edge: usize, beside: usize| {
+                !self.fits[beside] && self.partial.binary_search(&edge).is_ok()
+            };
+            let two_before = if before > 0 { before - 1 } else { n - 1 };
+            if alone(i, after) || alone(before, two_before) {
+                return true;
             }
             let Some(inward) = (self.moved[i] - self.points[i]).try_normalize() else {
                 return false;
