@@ -73,11 +73,8 @@ fn ordering(c: &mut Criterion) {
         let at = |i: usize, a: f64| (i as f64 * a).fract() * 150.0;
         let pieces: Vec<Piece> = (0..count)
             .map(|i| Point2::new(at(i, 0.754_877_666), at(i, 0.569_840_29)))
-            .map(|p| Piece {
-                points: vec![p, p + Point2::new(1.0, 0.5)],
-                role: Role::Infill,
-                width: WIDTH,
-                color: ColorId(0),
+            .map(|p| {
+                Piece::new(vec![p, p + Point2::new(1.0, 0.5)], Role::Infill, WIDTH, ColorId(0))
             })
             .collect();
         group.bench_with_input(BenchmarkId::from_parameter(count), &pieces, |b, pieces| {

@@ -117,6 +117,8 @@ struct LayerTime<'a> {
     at: Option<Point2>,
     height: f64,
     state: Option<&'a State>,
+    /// Length of the travel so far, mm.
+    way: f64,
     retracted: bool,
 }
 
@@ -129,8 +131,8 @@ impl<'a> LayerTime<'a> {
         first_layer: bool,
     ) -> Self {
         let time = TimeEstimate::new(&pacer.machine.motion);
-        let (cruise, height, retracted) = (0.0, 0.0, false);
-        Self { pacer, pace, first_layer, time, cruise, at, height, state, retracted }
+        let (cruise, height, way, retracted) = (0.0, 0.0, 0.0, false);
+        Self { pacer, pace, first_layer, time, cruise, at, height, state, way, retracted }
     }
 
     fn push(&mut self, motion: &Motion) {
@@ -148,7 +150,8 @@ impl<'a> LayerTime<'a> {
             Motion::Command(_) => {}
             Motion::Travel { to } => {
                 let by = to - self.at.replace(to).unwrap_or(to);
-                if by.length() >= machine.retraction.min_travel {
+                self.way += by.length();
+                if self.way >= machine.retraction.min_travel {
                     self.retract(true);
                 }
                 let acceleration = machine.motion.travel_acceleration;
@@ -156,6 +159,7 @@ impl<'a> LayerTime<'a> {
             }
             Motion::Extrude { to, width, role } => {
                 self.retract(false);
+                self.way = 0.0;
                 let by = to - self.at.replace(to).unwrap_or(to);
                 let state = self.state;
                 let fed = bead::area(width, self.height) * state.map_or(1.0, |state| state.flow);

@@ -481,3 +481,22 @@ fn a_state_between_colours_is_told_and_counted() {
     let shares = [0.875, 0.4, 0.625].iter().sum::<f64>();
     assert!((summary.filament_mm3[0] - third * shares).abs() < 1e-9, "{summary:?}");
 }
+
+#[test]
+fn travels_that_follow_each_other_are_one() {
+    let machine = machine("generic-mixing");
+    let moves = |to: &[(f64, f64)]| {
+        let mut print = vec![layer(0), color(0), travel(0.0, 0.0), line(10.0, 0.0)];
+        print.extend(to.iter().map(|&(x, y)| travel(x, y)));
+        print.push(line(20.0, 0.0));
+        let text = write(&machine, &options(&machine), steps(&print)).unwrap().0;
+        let lines = body(&text).into_iter().filter(|l| l.starts_with("G1")).map(str::to_owned);
+        lines.skip_while(|l| !l.starts_with("G1 X110.000 E")).skip(1).take(5).collect::<Vec<_>>()
+    };
+    // Each way shorter than the 2 mm that are worth pulling back for, together longer.
+    let round = moves(&[(11.5, 0.0), (11.5, 1.5)]);
+    assert_eq!(round[0], "G1 E-2.00000 F2100", "{round:?}");
+    assert!(round[2].starts_with("G1 X111.500 F") && round[3] == "G1 Y101.500", "{round:?}");
+    let short = moves(&[(10.5, 0.0), (10.5, 0.5)]);
+    assert!(short[0].starts_with("G1 X110.500 F") && short[1] == "G1 Y100.500", "{short:?}");
+}

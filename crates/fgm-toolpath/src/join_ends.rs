@@ -134,7 +134,7 @@ mod tests {
 
     fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
         let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
-        Piece { points, role, width: 0.4, color: ColorId(color) }
+        Piece::new(points, role, 0.4, ColorId(color))
     }
 
     fn joined(mut pieces: Vec<Piece>) -> Vec<Vec<(f64, f64)>> {

@@ -24,7 +24,7 @@
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`]; [`seam_length`] tells how far colours touch |
 //! | over air | [`Support`], [`mark_overhangs`], [`bridges`] |
-//! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`] |
+//! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`], [`begin_at_seams`], [`find_ways`] |
 //! | beside the part | [`Towers`], [`skirt`], [`brim`] |
 //! | result | [`LayerPlan`], [`LayerStats`], [`ToolpathError`] |
 //!
@@ -90,6 +90,7 @@ mod tower;
 mod tower_layout;
 mod travel;
 mod walls;
+mod way;
 mod zipper;
 
 pub use against::{AgainstOptions, against};
@@ -101,7 +102,7 @@ pub use gap::{GapOptions, gap_fill};
 pub use infill::{Infill, InfillOptions, Pattern, infill, infill_graded, infill_lightning};
 pub use inset::{ClipperInset, Inset};
 pub use join_ends::join_ends;
-pub use order::{Monotonic, OrderOptions, RoleOrder, Seam, order, order_with};
+pub use order::{Monotonic, OrderOptions, RoleOrder, Seam, begin_at_seams, order, order_with};
 pub use order_routes::order_routes;
 pub use overhang::mark_overhangs;
 pub use path::{Path, Piece};
@@ -116,3 +117,4 @@ pub use tower::{TowerOptions, Towers};
 pub use tower_layout::Side;
 pub use travel::connect;
 pub use walls::{WallOptions, Walls, walls};
+pub use way::{WayOptions, find_ways};

@@ -102,6 +102,9 @@ pub enum Seam {
     Random,
     /// At the vertex with the sharpest turn, where a seam shows least.
     Sharpest,
+    /// In the sharpest corner that goes into the part, where a seam is in the shade; at the nearest
+    /// vertex where none does by 20 degrees.
+    Hidden,
 }
 
 /// Puts the pieces of one layer into printing order with [`OrderOptions::default`].
@@ -204,8 +207,9 @@ fn order_group(
 }
 
 fn take(piece: &mut Piece) -> Piece {
-    let points = std::mem::take(&mut piece.points);
-    Piece { points, ..*piece }
+    let (points, way) = (std::mem::take(&mut piece.points), std::mem::take(&mut piece.way));
+    let Piece { role, width, color, .. } = *piece;
+    Piece { points, role, width, color, way }
 }
 
 /// The piece, begun at a vertex: an open piece at its first or its last, a loop at any.
@@ -264,12 +268,38 @@ fn begin_along(points: &mut Vec<Point2>, share: f64) {
     }
 }
 
-/// The vertex at which a loop has to start, if it has to.
-fn seam_of(piece: &Piece, options: &OrderOptions) -> Option<usize> {
-    let ring = &piece.points[..piece.points.len() - 1];
-    if piece.role != Role::OuterWall {
-        return None;
+/// Begins the loops among pieces that are in order already, whatever their role, where
+/// [`OrderOptions::seam`] wants them to; those that may begin anywhere stay as they are.
+///
+/// For fills against the gradient ([`order_routes`](crate::order_routes)), whose loops are no walls.
+pub fn begin_at_seams(pieces: &mut [Piece], options: &OrderOptions) {
+    for (i, piece) in (0_u32..).zip(pieces) {
+        if !piece.is_loop() || !piece.points.iter().all(|p| p.is_finite()) {
+            continue;
+        }
+        if options.seam == Seam::Random {
+            begin_along(&mut piece.points, share_of(u64::from(options.layer) << 32 | u64::from(i)));
+        } else if let Some(vertex) = seam_vertex(&piece.points, options) {
+            *piece = begun_at(take(piece), vertex as u32);
+        }
     }
+}
+
+/// The vertex at which a piece has to start, if it has to.
+fn seam_of(piece: &Piece, options: &OrderOptions) -> Option<usize> {
+    (piece.role == Role::OuterWall).then(|| seam_vertex(&piece.points, options)).flatten()
+}
+
+/// The vertex at which a loop, its first point repeated at the end, has to start.
+fn seam_vertex(points: &[Point2], options: &OrderOptions) -> Option<usize> {
+    let ring = &points[..points.len() - 1];
+    // Positive to the left: borders have the part on their left, so that it lies outside of the
+    // corner where they turn right.
+    let turn = |i: usize| {
+        let before = ring[i] - ring[(i + ring.len() - 1) % ring.len()];
+        let after = ring[(i + 1) % ring.len()] - ring[i];
+        before.perp_dot(after).atan2(before.dot(after))
+    };
     let best = |key: &dyn Fn(usize) -> f64| {
         (0..ring.len()).max_by(|&a, &b| key(a).total_cmp(&key(b)).then(b.cmp(&a)))
     };
@@ -278,13 +308,13 @@ fn seam_of(piece: &Piece, options: &OrderOptions) -> Option<usize> {
         Seam::Random => Some(0),
         Seam::Rear => best(&|i| ring[i].y),
         Seam::Aligned => best(&|i| -ring[i].distance_squared(options.seam_point)),
-        Seam::Sharpest => best(&|i| {
-            let before = ring[i] - ring[(i + ring.len() - 1) % ring.len()];
-            let after = ring[(i + 1) % ring.len()] - ring[i];
-            before.perp_dot(after).atan2(before.dot(after)).abs()
-        }),
+        Seam::Sharpest => best(&|i| turn(i).abs()),
+        Seam::Hidden => best(&|i| -turn(i)).filter(|&i| -turn(i) >= LEAST_CORNER),
     }
 }
+
+/// A corner that hides a seam turns by as much, radians.
+const LEAST_CORNER: f64 = 20.0 * std::f64::consts::PI / 180.0;
 
 const NONE: u32 = u32::MAX;
 

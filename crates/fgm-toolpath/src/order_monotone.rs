@@ -75,7 +75,7 @@ fn is_line(piece: &Piece) -> bool {
 
 /// The piece without its points.
 fn piece_of(piece: &Piece) -> Piece {
-    Piece { points: Vec::new(), ..*piece }
+    Piece::new(Vec::new(), piece.role, piece.width, piece.color)
 }
 
 /// Parts a piece into its lines. What joins two belongs to the lower one.

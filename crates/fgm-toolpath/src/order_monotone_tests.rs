@@ -104,7 +104,7 @@ proptest! {
 
 fn skin(points: &[(f64, f64)]) -> Piece {
     let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
-    Piece { points, role: Role::TopSkin, width: 0.4, color: ColorId(0) }
+    Piece::new(points, Role::TopSkin, 0.4, ColorId(0))
 }
 
 /// What pieces come to, as text.

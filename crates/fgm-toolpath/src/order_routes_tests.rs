@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 fn piece(points: &[(f64, f64)], color: u16) -> Piece {
     let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
-    Piece { points, role: Role::SolidInfill, width: 0.4, color: ColorId(color) }
+    Piece::new(points, Role::SolidInfill, 0.4, ColorId(color))
 }
 
 fn square(x: f64, y: f64, color: u16) -> Vec<Piece> {

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
     let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
-    Piece { points, role, width: 0.4, color: ColorId(color) }
+    Piece::new(points, role, 0.4, ColorId(color))
 }
 
 fn line(points: &[(f64, f64)]) -> Piece {
@@ -202,4 +202,35 @@ proptest! {
         };
         prop_assert!(travel(64) <= travel(0) + 1e-6);
     }
+}
+
+#[test]
+fn a_hidden_seam_lies_in_a_corner_that_goes_into_the_part() {
+    // A square with a notch in its lower side; then without.
+    let notched =
+        [(0.0, 0.0), (4.0, 0.0), (5.0, 3.0), (6.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)];
+    let closed = |corners: &[(f64, f64)]| {
+        let mut corners = corners.to_vec();
+        corners.push(corners[0]);
+        piece(&corners, 0, Role::OuterWall)
+    };
+    let options = OrderOptions { seam: Seam::Hidden, ..OrderOptions::default() };
+    let start =
+        |wall: Piece| order_with(vec![wall], &[], Point2::new(10.0, 10.0), &options)[0].points[0];
+    assert_eq!(start(closed(&notched)), Point2::new(5.0, 3.0));
+    let square = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0)];
+    assert_eq!(start(closed(&square)), Point2::new(9.0, 9.0));
+    // A hole runs the other way round: every corner of it goes into the part.
+    let hole: Vec<(f64, f64)> = square.iter().rev().copied().collect();
+    let corners: Vec<Point2> = square.iter().map(|&p| p.into()).collect();
+    assert!(corners.contains(&start(closed(&hole))));
+    // Loops that are in order already, of any role.
+    let mut loops = vec![Piece { role: Role::SolidInfill, ..closed(&notched) }];
+    begin_at_seams(&mut loops, &options);
+    assert_eq!(loops[0].points[0], Point2::new(5.0, 3.0));
+    assert!(loops[0].is_loop() && loops[0].points.len() == 8);
+    let open = vec![piece(&notched, 0, Role::SolidInfill)];
+    let mut kept = open.clone();
+    begin_at_seams(&mut kept, &options);
+    assert_eq!(kept, open);
 }

@@ -41,7 +41,11 @@ pub fn mark_overhangs(
                 let role = role_of(one.hold, piece.role);
                 out.push(Piece { role, ..piece });
             }
-            _ => out.extend(stretches.iter().map(|stretch| part(&piece, stretch))),
+            _ => {
+                let first = out.len();
+                out.extend(stretches.iter().map(|stretch| part(&piece, stretch)));
+                out[first].way = piece.way;
+            }
         }
     }
     out
@@ -59,7 +63,7 @@ fn role_of(hold: Hold, role: Role) -> Role {
 fn part(piece: &Piece, stretch: &Stretch) -> Piece {
     let mut points = Vec::with_capacity((stretch.to - stretch.from) as usize + 3);
     slice_path(&piece.points, stretch.from, stretch.to, &mut points);
-    Piece { points, role: role_of(stretch.hold, piece.role), ..*piece }
+    Piece::new(points, role_of(stretch.hold, piece.role), piece.width, piece.color)
 }
 
 /// Gives stretches that are too short to tell to the one before, the first ones to the one after:

@@ -13,7 +13,7 @@ fn square(half: f64) -> Vec<Polygon> {
 }
 
 fn wall(line: &[(f64, f64)]) -> Piece {
-    Piece { points: points(line), role: Role::OuterWall, width: 0.4, color: ColorId(0) }
+    Piece::new(points(line), Role::OuterWall, 0.4, ColorId(0))
 }
 
 /// The stretches of a wall over a square of 20 mm, as `role:length`.

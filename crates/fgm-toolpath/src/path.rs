@@ -32,7 +32,7 @@ impl Path {
         if closed {
             points.extend(points.first().copied());
         }
-        Piece { points, role, width, color }
+        Piece::new(points, role, width, color)
     }
 
     /// The path without the vertices that lie within `tolerance` mm of a line past them; as it is
@@ -75,9 +75,18 @@ pub struct Piece {
     pub width: f64,
     /// What it is printed with.
     pub color: ColorId,
+    /// How the nozzle travels to it: from the first of these points, the end of the piece before,
+    /// over the others to the piece's first point; straight where it comes from anywhere else, or
+    /// this is empty.
+    pub way: Vec<Point2>,
 }
 
 impl Piece {
+    /// A piece that is travelled to straight.
+    pub fn new(points: Vec<Point2>, role: Role, width: f64, color: ColorId) -> Self {
+        Self { points, role, width, color, way: Vec::new() }
+    }
+
     /// Length, mm.
     pub fn length(&self) -> f64 {
         self.points.windows(2).map(|w| w[0].distance(w[1])).sum()
@@ -112,7 +121,7 @@ impl Piece {
             self.points.extend(rest.first());
         }
         rest.shrink_to_fit();
-        (self, Self { points: rest, role, width, color })
+        (self, Self::new(rest, role, width, color))
     }
 
     /// Whether it ends where it begins.
@@ -154,6 +163,7 @@ mod tests {
             points: vec![at(0.0), at(4.0), at(6.0)],
             role: Role::Infill,
             width: 0.4,
+            way: Vec::new(),
             color: ColorId(3),
         };
         for (length, first, rest) in [

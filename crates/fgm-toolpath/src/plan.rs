@@ -106,10 +106,17 @@ impl LayerPlan {
     ///
     /// A colour is set where it changes, for the first piece where it is not `previous`, the last
     /// colour of the layer before. A piece is travelled to unless the one before ends where it
-    /// begins, within 1e-6 mm; the first one always is. Shorter segments are left out, with what
+    /// begins, within 1e-6 mm, over its [way](Piece::way) where it has one; the first one always is. Shorter segments are left out, with what
     /// has no length at all.
     pub fn motions(&self, previous: Option<ColorId>) -> Motions<'_> {
-        Motions { plan: self, piece: 0, point: 0, at: None, color: previous, begun: false }
+        self.motions_from(None, previous)
+    }
+
+    /// As [`motions`](Self::motions), where the layer before ended at a known place: the first piece
+    /// may then have a way, too.
+    pub fn motions_from(&self, end: Option<Point2>, previous: Option<ColorId>) -> Motions<'_> {
+        let (piece, point, step) = (0, 0, 0);
+        Motions { plan: self, piece, point, step, at: None, end, color: previous, begun: false }
     }
 
     /// What the layer comes to.
@@ -130,7 +137,9 @@ impl LayerPlan {
                 (stretch, whole) = (0.0, true);
             }
             let length = piece.length();
-            stats.travel += gap.unwrap_or_default();
+            if let (Some(_), Some(from)) = (gap, last.and_then(|l| l.points.last())) {
+                stats.travel += travel(*from, piece);
+            }
             stats.travels += usize::from(gap.is_some());
             stats.color_changes += usize::from(changed);
             stats.pieces += 1;
@@ -146,6 +155,21 @@ impl LayerPlan {
     }
 }
 
+/// The points that the nozzle travels over from a place to a piece.
+fn way_from(from: Option<Point2>, piece: &Piece) -> &[Point2] {
+    match (piece.way.split_first(), from) {
+        (Some((first, rest)), Some(from)) if first.distance(from) <= MEETS => rest,
+        _ => &[],
+    }
+}
+
+/// The length of the travel from a place to a piece, mm.
+fn travel(from: Point2, piece: &Piece) -> f64 {
+    let way = way_from(Some(from), piece).iter().chain(piece.points.first());
+    let mut at = from;
+    way.map(|&p| std::mem::replace(&mut at, p).distance(p)).sum()
+}
+
 fn has_length(piece: &Piece) -> bool {
     piece.points.iter().skip(1).any(|p| p.distance(piece.points[0]) > MEETS)
 }
@@ -157,7 +181,11 @@ pub struct Motions<'a> {
     piece: usize,
     /// The next point of the piece; 0 before the piece has begun.
     point: usize,
+    /// Points of the way to the piece that are behind.
+    step: usize,
     at: Option<Point2>,
+    /// Where the piece before ended.
+    end: Option<Point2>,
     color: Option<ColorId>,
     begun: bool,
 }
@@ -182,6 +210,11 @@ impl Iterator for Motions<'_> {
                     self.color = Some(piece.color);
                     return Some(Motion::Color(piece.color));
                 }
+                if let Some(&to) = way_from(self.end, piece).get(self.step) {
+                    self.step += 1;
+                    self.at = Some(to);
+                    return Some(Motion::Travel { to });
+                }
                 self.point = 1;
                 let to = piece.points[0];
                 if self.at.is_none_or(|at| at.distance(to) > MEETS) {
@@ -190,7 +223,8 @@ impl Iterator for Motions<'_> {
                 }
             }
             let Some(&to) = piece.points.get(self.point) else {
-                (self.piece, self.point) = (self.piece + 1, 0);
+                (self.piece, self.point, self.step) = (self.piece + 1, 0, 0);
+                self.end = self.at;
                 continue;
             };
             self.point += 1;

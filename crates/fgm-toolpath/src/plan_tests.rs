@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
     let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
-    Piece { points, role, width: 0.4, color: ColorId(color) }
+    Piece::new(points, role, 0.4, ColorId(color))
 }
 
 fn plan(pieces: Vec<Piece>) -> LayerPlan {
@@ -149,4 +149,27 @@ proptest! {
         }
         prop_assert_eq!(at, plan.end());
     }
+}
+
+#[test]
+fn ways_are_travelled_over_from_where_they_begin() {
+    let mut second = piece(&[(5.0, 0.0), (6.0, 0.0)], 0, Role::Infill);
+    second.way = vec![Point2::new(1.0, 0.0), Point2::new(1.0, 3.0), Point2::new(5.0, 3.0)];
+    let first = piece(&[(0.0, 0.0), (1.0, 0.0)], 0, Role::Infill);
+    let travels = |pieces: Vec<Piece>| -> (Vec<Point2>, f64) {
+        let plan = LayerPlan::new(0, 0.2, 0.2, pieces).unwrap();
+        let to = |m| if let Motion::Travel { to } = m { Some(to) } else { None };
+        (plan.motions(Some(ColorId(0))).filter_map(to).collect(), plan.stats().travel)
+    };
+    let ends = [Point2::ZERO, Point2::new(5.0, 0.0)];
+    let (way, length) = travels(vec![first.clone(), second.clone()]);
+    assert_eq!(way, [ends[0], second.way[1], second.way[2], ends[1]]);
+    assert_eq!(length, 10.0);
+    // Where something came between, the way is no longer one.
+    let between = piece(&[(1.0, 0.0), (2.0, 0.0)], 0, Role::PurgeTower);
+    let (way, length) = travels(vec![first, between, second.clone()]);
+    assert_eq!((way, length), (ends.to_vec(), 3.0));
+    let plan = LayerPlan::new(1, 0.4, 0.2, vec![second.clone()]).unwrap();
+    let count = |end| plan.motions_from(end, None).count();
+    assert_eq!(count(Some(second.way[0])) - count(None), 2);
 }

@@ -252,6 +252,7 @@ mod tests {
             points: [from, to].map(|x| Point2::new(x, y * spacing)).into(),
             role: Role::Infill,
             width: 0.4,
+            way: Vec::new(),
             color: ColorId(color),
         };
         seam_length(&lines.iter().map(piece).collect::<Vec<_>>(), 0.2)

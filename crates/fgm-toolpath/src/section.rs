@@ -64,7 +64,7 @@ pub fn section(
         for run in runs.iter().filter(|run| run.length != 0.0) {
             let whole = runs.len() == 1;
             let points = if whole { line.clone() } else { points_of(&line, run) };
-            out.push(Piece { points, role: path.role, width: path.width, color: run.color });
+            out.push(Piece::new(points, path.role, path.width, run.color));
         }
     }
 }

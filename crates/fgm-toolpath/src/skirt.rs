@@ -38,11 +38,9 @@ pub fn skirt(parts: &[Polygon], color: ColorId, options: &SkirtOptions, out: &mu
     if hull.len() < 3 {
         return;
     }
-    out.extend((0..loops).map(|i| Piece {
-        points: around(&hull, distance + (f64::from(i) + 0.5) * width),
-        role: Role::Skirt,
-        width,
-        color,
+    out.extend((0..loops).map(|i| {
+        let points = around(&hull, distance + (f64::from(i) + 0.5) * width);
+        Piece::new(points, Role::Skirt, width, color)
     }));
 }
 

@@ -179,7 +179,7 @@ impl Towers {
         let line = self.line(&spot, needed, layer, height);
         let piece = |points, color| {
             let width = self.options.width;
-            Piece { points, role: Role::PurgeTower, width, color }
+            Piece::new(points, Role::PurgeTower, width, color)
         };
         let Some((last, others)) = purges.split_last() else { return vec![piece(line, hand)] };
         let mut rest = piece(line, last.1);

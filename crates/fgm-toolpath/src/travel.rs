@@ -260,11 +260,9 @@ mod tests {
 
     #[test]
     fn pieces_that_meet_become_one() {
-        let piece = |points: &[(f64, f64)], color, role| Piece {
-            points: points.iter().map(|&(x, y)| Point2::new(x, y)).collect(),
-            role,
-            width: 0.4,
-            color: ColorId(color),
+        let piece = |points: &[(f64, f64)], color, role| {
+            let points = points.iter().map(|&(x, y)| Point2::new(x, y)).collect();
+            Piece::new(points, role, 0.4, ColorId(color))
         };
         let mut pieces = vec![
             piece(&[(0.0, 0.0), (1.0, 0.0)], 0, Role::Infill),

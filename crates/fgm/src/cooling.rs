@@ -41,7 +41,8 @@ impl Cooling {
     /// The pace of the next layer, which begins in a colour; none for the usual one.
     pub(crate) fn pace(&mut self, plan: &LayerPlan, color: Option<ColorId>) -> Option<Pace> {
         let state = color.and_then(|color| self.states.get(color.index()));
-        let paced = self.pacer.pace(|| plan.motions(color), self.at, state, self.first);
+        let paced =
+            self.pacer.pace(|| plan.motions_from(self.at, color), self.at, state, self.first);
         self.first = false;
         self.at = plan.end().or(self.at);
         let paced = paced?;

@@ -5,8 +5,8 @@ use fgm_core::{ColorId, Point2, Polygon, Role};
 use fgm_field::Design;
 use fgm_palette::Palette;
 use fgm_toolpath::{
-    ClipperInset, OrderOptions, Piece, brim, join_ends, mark_overhangs, order_routes, order_with,
-    skirt,
+    ClipperInset, OrderOptions, Piece, Support, begin_at_seams, brim, find_ways, join_ends,
+    mark_overhangs, order_routes, order_with, skirt,
 };
 
 use rayon::ThreadPool;
@@ -61,7 +61,7 @@ pub(crate) struct Seams {
 }
 
 /// A layer ready to be written.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct PlannedLayer {
     /// From 0 at the part's bottom.
     pub(crate) index: usize,
@@ -79,6 +79,8 @@ pub(crate) struct PlannedLayer {
     pub(crate) model_mm3: f64,
     pub(crate) seconds: StageSeconds,
     pub(crate) warnings: Vec<String>,
+    /// Its outline.
+    pub(crate) outline: SharedOutline,
     /// How many colours were taken for one where bands are narrower than a bead; 1 for none.
     pub(crate) merged: u16,
 }
@@ -149,7 +151,13 @@ impl Job<'_> {
                 let filled = against::routes(self, layer, region, &mut seconds)?;
                 merged = filled.merged;
                 let colors = self.colors(filled.routes.iter().flatten(), layer);
-                let order = || order_routes(filled.routes, &colors, start);
+                let corner = self.design.bounds.max.truncate();
+                let options = self.settings.order_options(layer.index, corner);
+                let order = || {
+                    let mut pieces = order_routes(filled.routes, &colors, start);
+                    begin_at_seams(&mut pieces, &options);
+                    pieces
+                };
                 (timed(&mut seconds.toolpath, order), filled.faces)
             }
         };
@@ -157,7 +165,13 @@ impl Job<'_> {
         let short = pieces.iter().filter(|p| colors::is_short(p, self.settings)).count();
         let pieces = timed(&mut seconds.toolpath, || {
             let pieces = self.with_overhangs(pieces, below.as_deref());
-            self.with_loops(layer, region, pieces)
+            let mut pieces = self.with_loops(layer, region, pieces);
+            if let Some(options) = self.settings.way_options() {
+                let drawn = drawn.as_ref().map(|drawn| Support::new(drawn));
+                let border = drawn.as_ref().unwrap_or_else(|| outline.border());
+                find_ways(&mut pieces, None, region, border, &options, &self.inset);
+            }
+            pieces
         });
         Ok(PlannedLayer {
             index: layer.index,
@@ -169,6 +183,7 @@ impl Job<'_> {
             model_mm3: area * layer.height,
             seconds,
             warnings: outline.warnings.clone(),
+            outline,
             merged,
         })
     }

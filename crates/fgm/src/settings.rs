@@ -13,6 +13,7 @@ use fgm_contour::ContourOptions;
 use fgm_core::Point2;
 use fgm_toolpath::{
     BrimOptions, FaceFill, Monotonic, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions,
+    WayOptions,
 };
 
 /// One line of the list of settings.
@@ -178,12 +179,19 @@ settings! {
     order: OrderSettings {
         #[doc = "Which walls come first; any takes what is nearest."]
         walls: RoleOrder = RoleOrder::Any, "\"any\"", "any | outer-first | inner-first";
-        #[doc = "Where loops of the outer wall that are of one colour start; walls of several colours start at a boundary. Aligned is the vertex nearest to seam_point on every layer."]
-        seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest";
+        #[doc = "Where loops of the outer wall, or with strategy against all loops, that are of one colour start; walls of several colours start at a boundary. Aligned is the vertex nearest to seam_point on every layer, hidden the sharpest corner that goes into the part."]
+        seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest | hidden";
         #[doc = "The point of the aligned seam, x and y in the design's coordinates."]
         seam_point: Option<[f64; 2]> = None, "the design's corner of greatest x and y", "[mm, mm]";
         #[doc = "How many changes of the order are tried to shorten the travels, for each piece."]
         effort: u32 = 32, "32", "count";
+    }
+    #[doc = "The ways between beads."]
+    travel: TravelSettings {
+        #[doc = "Whether travels that would cross the outer wall go round inside the part, where there is a way."]
+        avoid_crossing: bool = true, "true", "true | false";
+        #[doc = "What a way round may be longer than the straight one."]
+        max_detour: f64 = 30.0, "30", "mm";
     }
     #[doc = "Where the old colour goes, strategy sectioned."]
     purge: PurgeSettings {
@@ -317,6 +325,12 @@ impl Settings {
         }
     }
 
+    /// How travels keep off the outer wall; none where they need not.
+    pub(crate) fn way_options(&self) -> Option<WayOptions> {
+        let TravelSettings { avoid_crossing, max_detour } = self.travel;
+        avoid_crossing.then_some(WayOptions { width: self.layer.bead_width, max_detour })
+    }
+
     /// The brim on a first layer.
     pub(crate) fn brim_options(&self) -> BrimOptions {
         let BrimSettings { width, gap } = self.brim;
@@ -391,6 +405,7 @@ impl Settings {
         let cooling = &self.cooling;
         within("cooling.min_layer_time", cooling.min_layer_time, 0.0..=3600.0, "0 to 3600 s")?;
         within("cooling.min_speed", cooling.min_speed, 0.1..=1e4, "0.1 to 10000 mm/s")?;
+        within("travel.max_detour", self.travel.max_detour, 0.0..=1e6, "0 to 1000000 mm")?;
         within("walls.overhang", self.walls.overhang, 0.0..=0.5, "0 to 0.5")?;
         within("bridges.flow", self.bridges.flow, 0.1..=3.0, "0.1 to 3")?;
         within("bridges.anchor", self.bridges.anchor, 0.0..=100.0, "0 to 100 mm")?;

@@ -330,7 +330,7 @@ impl<'a> Slicer<'a> {
             outlines: OutlineWindow::new(outliner, span.min(layers.count())),
             isolines: self.settings.isoline_options(),
             boundaries: BoundaryLines::new(self.design, bands, self.settings.isoline_options()),
-            inset: ClipperInset { simplify: self.settings.inset_simplification() },
+            inset: self.inset(),
             filling,
             covers,
             hidden_purges: purge::hides(self.machine, self.settings)
@@ -384,6 +384,10 @@ impl<'a> Slicer<'a> {
         Purge::new(self.machine, self.settings, needs, &demand, place).map(Some)
     }
 
+    fn inset(&self) -> ClipperInset {
+        ClipperInset { simplify: self.settings.inset_simplification() }
+    }
+
     fn stream<'s>(
         &'s self,
         palette: &'s Palette,
@@ -415,6 +419,8 @@ impl<'a> Slicer<'a> {
             cooling: Cooling::new(machine, &states, &settings.cooling),
             layers,
             color: None,
+            end: None,
+            ways: settings.way_options().map(|options| (options, self.inset())),
             count: 0,
         })
     }

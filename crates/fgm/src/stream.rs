@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use fgm_core::ColorId;
+use fgm_core::{ColorId, Point2};
 use fgm_gcode::{GcodeError, Pace, Summary, Writer};
-use fgm_toolpath::LayerPlan;
+use fgm_toolpath::{ClipperInset, LayerPlan, WayOptions, find_ways};
 
 use crate::{
     ahead::Ahead,
@@ -28,6 +28,10 @@ pub(crate) struct Stream<'a> {
     pub(crate) layers: Layers,
     /// The colour that comes out at the end of what was pushed.
     pub(crate) color: Option<ColorId>,
+    /// Where that is.
+    pub(crate) end: Option<Point2>,
+    /// How travels from layer to layer keep off the outer wall.
+    pub(crate) ways: Option<(WayOptions, ClipperInset)>,
     /// Layers pushed.
     pub(crate) count: usize,
 }
@@ -44,10 +48,16 @@ impl Stream<'_> {
     /// Writes a layer.
     pub(crate) fn push(&mut self, planned: PlannedLayer) -> Result<(), SliceError> {
         let layer = self.layers.get(planned.index);
-        let pieces = match &mut self.purge {
+        let outline = planned.outline;
+        let mut pieces = match &mut self.purge {
             Some(purge) => purge.lay(planned.pieces, self.color, self.count, layer.height),
             None => planned.pieces,
         };
+        if let (Some((options, inset)), Some(first)) = (&self.ways, pieces.first_mut()) {
+            // Only now is known where the layer below ended.
+            let (first, border) = (std::slice::from_mut(first), outline.border());
+            find_ways(first, self.end, &outline.region, border, options, inset);
+        }
         let index = u32::try_from(planned.index).unwrap_or(u32::MAX);
         let plan = LayerPlan::new(index, layer.top, layer.height, pieces)?;
         let pace = self.cooling.as_mut().and_then(|c| c.pace(&plan, self.color));
@@ -55,12 +65,13 @@ impl Stream<'_> {
         if let Some(pace) = pace {
             self.writer.slow(index, pace);
         }
-        for motion in plan.motions(self.color) {
+        for motion in plan.motions_from(self.end, self.color) {
             let writer = &mut self.writer;
             let target = self.target.as_mut().filter(|_| self.ahead.aims());
             let wanted = target.map_or(&[][..], |target| target.along(&motion, layer.cut));
             self.ahead.push(motion, wanted, |step| writer.push(step))?;
         }
+        self.end = plan.end().or(self.end);
         self.color = plan.last_color().or(self.color);
         self.count += 1;
         Ok(())

@@ -90,3 +90,49 @@ fn islands_are_one_plate() {
         }
     }
 }
+
+/// How near to the z axis travels come inside layers, mm, and how many there are.
+fn nearest_travel(gcode: &str) -> (f64, usize) {
+    let offset = gcode.lines().find_map(|l| l.strip_prefix("; design_offset = ")).unwrap();
+    let offset: Vec<f64> = offset.split(' ').map(|v| v.parse().unwrap()).collect();
+    // Where it starts from is not known.
+    let (mut at, mut least, mut count) = (Point2::NAN, f64::INFINITY, 0);
+    let after_first = gcode.split(";LAYER_CHANGE").skip(2).flat_map(str::lines);
+    // Up to the end template.
+    let inside = after_first.take_while(|l| *l != "M104 S0");
+    for line in inside.filter(|l| l.starts_with("G1 ")) {
+        let word = |letter| {
+            let word = line.split(' ').find_map(|w| w.strip_prefix(letter));
+            word.map(|v| v.parse::<f64>().unwrap())
+        };
+        let to = Point2::new(
+            word('X').map_or(at.x, |x| x - offset[0]),
+            word('Y').map_or(at.y, |y| y - offset[1]),
+        );
+        if word('E').is_none() && to != at && at.is_finite() {
+            let share = (-at.dot(to - at) / (to - at).length_squared()).clamp(0.0, 1.0);
+            least = least.min(at.lerp(to, share).length());
+            count += 1;
+        }
+        at = to;
+    }
+    (least, count)
+}
+
+#[test]
+fn travels_go_round_a_bore() {
+    let tube = r#"fgrade(["x/20 + 0.5", "0.5 - x/20"], ["a", "b"]) {
+        difference() { cylinder(10, 2); cylinder(6, 3); } }"#;
+    for strategy in [Strategy::Sectioned, Strategy::Against] {
+        let travels = |avoid| {
+            let mut settings = settings(strategy, 6);
+            settings.purge.enabled = Some(false);
+            settings.travel.avoid_crossing = avoid;
+            let gcode = slice(&parse(tube), "generic-mixing", &settings).1;
+            nearest_travel(std::str::from_utf8(&gcode).unwrap())
+        };
+        let (straight, round) = (travels(false), travels(true));
+        assert!(straight.0 < 5.9, "{strategy}: {straight:?}");
+        assert!(round.0 > 6.0 && round.1 > straight.1, "{strategy}: {round:?}");
+    }
+}

@@ -8,7 +8,7 @@ mod summary;
 
 use std::{collections::VecDeque, io};
 
-use fgm_core::{ColorId, Motion};
+use fgm_core::{ColorId, Motion, Point2};
 
 use crate::{
     Dialect, GcodeError, Machine, MachineKind, Pace, ProgressLines, State, Step, Text,
@@ -34,6 +34,9 @@ const EARLIEST: usize = 1024;
 /// is the true one to the last decimal. Beads shorter than the resolution are not written, and
 /// their filament goes to the next one.
 ///
+/// Travels that follow each other are one: whether the filament is pulled back goes by their whole
+/// length.
+///
 /// A stream without any [`Motion::Command`] has its commands where its colours change; put a
 /// [`Lead`](crate::Lead) before the writer to have them earlier.
 ///
@@ -53,6 +56,8 @@ pub struct Writer<W: io::Write> {
     heads: Heads,
     position: Position,
     bead: Bead,
+    /// Where a travel goes that has not been written: it may go on.
+    travel: Vec<Point2>,
     /// Of this layer, and of those to come, by their index.
     pace: Pace,
     paces: VecDeque<(u32, Pace)>,
@@ -115,6 +120,7 @@ impl<W: io::Write> Writer<W> {
             early: Some(Vec::new()),
             heads: Heads::new(states, first),
             bead: Bead::default(),
+            travel: Vec::new(),
             pace: Pace::USUAL,
             paces: VecDeque::new(),
             fed: 0.0,
@@ -167,6 +173,7 @@ impl<W: io::Write> Writer<W> {
         if self.early.is_some() {
             self.begin(ColorId(0))?;
         }
+        self.end_travel()?;
         self.count_fed();
         self.tail()?;
         self.flush()?;
@@ -184,9 +191,14 @@ impl<W: io::Write> Writer<W> {
 
     #[inline]
     fn step(&mut self, step: Step) -> Result<(), GcodeError> {
+        if let Step::Motion(Motion::Travel { to }) = step {
+            self.travel.push(self.position.place(to)?);
+            return Ok(());
+        }
+        self.end_travel()?;
         match step {
             Step::Motion(Motion::Extrude { to, width, role }) => self.extrude(to, width, role),
-            Step::Motion(Motion::Travel { to }) => self.travel(to),
+            Step::Motion(Motion::Travel { .. }) => Ok(()),
             Step::Motion(Motion::Layer { index, z, height }) => self.layer(index, z, height),
             Step::Motion(Motion::Command(color)) => self.command(color),
             Step::Motion(Motion::Color(color)) => self.deposit(color),

@@ -209,24 +209,38 @@ impl<W: io::Write> Writer<W> {
         }
     }
 
-    /// A move without extrusion.
-    pub(super) fn travel(&mut self, to: Point2) -> Result<(), GcodeError> {
-        let to = self.position.place(to)?;
-        let (x, y) = (Fixed::round(to.x)?, Fixed::round(to.y)?);
+    /// Moves without extrusion, from place to place.
+    #[inline]
+    pub(super) fn end_travel(&mut self) -> Result<(), GcodeError> {
+        if self.travel.is_empty() { Ok(()) } else { self.travel_all() }
+    }
+
+    fn travel_all(&mut self) -> Result<(), GcodeError> {
+        let places = std::mem::take(&mut self.travel);
         let known = self.position.x.is_some() && self.position.y.is_some();
-        if self.position.x == Some(x) && self.position.y == Some(y) {
-            self.position.at = Some(to);
-            return Ok(());
+        let mut length = if known && self.position.at.is_some() { 0.0 } else { f64::INFINITY };
+        let mut at = self.position.at;
+        for &to in &places {
+            length += at.replace(to).map_or(0.0, |at| at.distance(to));
         }
-        let length = self.position.at.filter(|_| known).map_or(f64::INFINITY, |at| at.distance(to));
-        let retraction = &self.options.retraction;
-        if length >= retraction.min_travel {
-            self.retract(retraction.length)?;
-            self.lift(self.hop())?;
-        } else {
-            self.lift(0.0)?;
+        let mut begun = false;
+        for to in places {
+            let (x, y) = (Fixed::round(to.x)?, Fixed::round(to.y)?);
+            if self.position.x == Some(x) && self.position.y == Some(y) {
+                self.position.at = Some(to);
+                continue;
+            }
+            if !std::mem::replace(&mut begun, true) {
+                let retraction = &self.options.retraction;
+                if length >= retraction.min_travel {
+                    self.retract(retraction.length)?;
+                    self.lift(self.hop())?;
+                } else {
+                    self.lift(0.0)?;
+                }
+            }
+            self.travel_to(to, x, y);
         }
-        self.travel_to(to, x, y);
         Ok(())
     }
 

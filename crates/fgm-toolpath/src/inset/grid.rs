@@ -126,19 +126,31 @@ impl EdgeGrid {
     /// segment on an edge for one of two segments that meet there, so that counting crossings
     /// tells inside from outside.
     pub(crate) fn crossings(&self, a: Point2, b: Point2, out: &mut Vec<f64>) {
-        let mut near: Vec<u32> = Vec::new();
+        let mut crossed = Vec::new();
+        self.crossed(a, b, &mut crossed);
+        out.extend(crossed.into_iter().map(|(share, _)| share));
+    }
+
+    /// As [`crossings`](Self::crossings), each with the number of the edge.
+    pub(crate) fn crossed(&self, a: Point2, b: Point2, out: &mut Vec<(f64, u32)>) {
+        let first = out.len();
         self.cells_of(a, b, |cell| {
             let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
-            near.extend_from_slice(&self.items[range]);
+            for &edge in &self.items[range] {
+                let (c, d) = self.edges[edge as usize];
+                out.extend(crossing(a, b, c, d).map(|share| (share, edge)));
+            }
         });
-        near.sort_unstable();
-        near.dedup();
-        let first = out.len();
-        for edge in near {
-            let (c, d) = self.edges[edge as usize];
-            out.extend(crossing(a, b, c, d));
+        // An edge stands in every cell that it passes.
+        out[first..].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut kept = first;
+        for i in first..out.len() {
+            if i == first || out[i] != out[kept - 1] {
+                out[kept] = out[i];
+                kept += 1;
+            }
         }
-        out[first..].sort_unstable_by(f64::total_cmp);
+        out.truncate(kept);
     }
 
     /// Whether a point lies inside the border, by counting how often the way to it crosses. On the

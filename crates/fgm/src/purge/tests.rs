@@ -5,7 +5,7 @@ use super::*;
 
 fn piece(from: f64, to: f64, color: u16, role: Role) -> Piece {
     let points = vec![Point2::new(from, 0.0), Point2::new(to, 0.0)];
-    Piece { points, role, width: 0.4, color: ColorId(color) }
+    Piece::new(points, role, 0.4, ColorId(color))
 }
 
 /// A print of colours 0 and 1, side by side, whose dead volume is `volume` mm³.
