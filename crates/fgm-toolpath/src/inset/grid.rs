@@ -5,6 +5,8 @@ use fgm_core::{Bounds2, Point2};
 /// The most cells an edge: a long thin border must not make mostly empty cells, which cost more
 /// to clear than they save.
 const CELLS_AN_EDGE: f64 = 4.0;
+/// The same where empty cells spare a look at what lies in them.
+const CELLS_AN_EDGE_ALONG: f64 = 32.0;
 /// A segment is cut into no more stretches than this.
 const MOST_STRETCHES: f64 = 1e4;
 
@@ -35,9 +37,13 @@ pub(crate) struct EdgeGrid {
 impl EdgeGrid {
     /// Sorts edges into cells of about `cell` mm.
     pub(crate) fn new(edges: Vec<(Point2, Point2)>, cell: f64) -> Self {
+        Self::with_cells(edges, cell, CELLS_AN_EDGE)
+    }
+
+    fn with_cells(edges: Vec<(Point2, Point2)>, cell: f64, cells_an_edge: f64) -> Self {
         let bounds = Bounds2::of(edges.iter().flat_map(|&(a, b)| [a, b]));
         let size = if bounds.is_finite() { bounds.size() } else { Point2::ZERO };
-        let most = CELLS_AN_EDGE * edges.len().max(1) as f64;
+        let most = cells_an_edge * edges.len().max(1) as f64;
         // Along a border as straight as a line, too, where the area says nothing.
         let least = (size.x * size.y / most).sqrt().max(size.max_element() / most);
         let cell = cell.max(least).max(1e-6);
@@ -223,14 +229,23 @@ impl EdgeGrid {
     /// Whether a line lies inside the border all along and nowhere comes within `reach` of it. It
     /// may, where this says it does not.
     pub(crate) fn is_deep_inside(&self, line: &[Point2], reach: f64) -> bool {
-        // A quiet cell is a cell's side away from any edge: no point of so short a step between
-        // two of them comes nearer than half of that.
-        let short = |w: &[Point2]| w[0].distance_squared(w[1]) <= self.cell * self.cell;
-        let deep = |p: &Point2| {
+        let deep = |p: Point2| {
             let cell = self.row(p.y) * self.columns + self.column(p.x);
             self.quiet.get(cell) == Some(&Quiet::Inside)
         };
-        2.0 * reach < self.cell && line.iter().all(deep) && line.windows(2).all(short)
+        // A quiet cell is a cell's side away from any edge: no point of so short a step between
+        // two of them comes nearer than half of that.
+        let between = |w: &[Point2]| {
+            let squared = w[0].distance_squared(w[1]);
+            if squared <= self.cell * self.cell {
+                return true;
+            }
+            let steps = (squared.sqrt() * self.per_mm).ceil().min(MOST_STRETCHES);
+            steps < MOST_STRETCHES
+                && (1..steps as u32).all(|i| deep(w[0].lerp(w[1], f64::from(i) / steps)))
+        };
+        let points_deep = || line.iter().all(|&p| deep(p));
+        2.0 * reach < self.cell && points_deep() && line.windows(2).all(between)
     }
 
     /// Marks the cells that have no edge in them or in any of the eight around.
@@ -265,7 +280,7 @@ impl EdgeGrid {
 
     /// As far as [`along`](Self::along) is to be asked.
     pub(crate) fn for_along(edges: Vec<(Point2, Point2)>, cell: f64) -> Self {
-        let mut grid = Self::new(edges, cell);
+        let mut grid = Self::with_cells(edges, cell, CELLS_AN_EDGE_ALONG);
         grid.mark_quiet();
         grid
     }
