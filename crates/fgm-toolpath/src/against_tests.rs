@@ -116,8 +116,10 @@ proptest! {
             prop_assert!(path.points.len() > 1 && width > 0.2 && width < 0.8, "{}", width);
             prop_assert!(path.points.iter().all(|&p| face.contains(p)));
         }
-        // A face of a millimetre across takes beads of the least width, which are too many.
-        prop_assert!(volume < 1.08, "volume {}", volume);
+        // A face of a millimetre or two takes beads of the least width, which are too many where it
+        // has many narrow arms.
+        let most = if radius < 3.0 { 1.2 } else { 1.08 };
+        prop_assert!(volume < most, "volume {}", volume);
         if radius > 3.0 && waves.is_empty() {
             prop_assert!(volume > 0.96, "volume {}", volume);
         }

@@ -16,6 +16,9 @@ const HAIR: f64 = 2e-3;
 const STRAIGHTEN: f64 = 5e-3;
 /// The share by which thickness may vary within one bead of constant width.
 const STEP: f64 = 0.05;
+/// How round what takes a single loop is: a disc is 1, a square 0.785, a rectangle twice as long as
+/// wide 0.698.
+const ROUND: f64 = 0.72;
 /// How far a bead leads on into what is too thin for it, in line spacings.
 const MOST_LENGTHENED: f64 = 3.0;
 
@@ -62,6 +65,12 @@ pub(crate) fn fill_thin(region: &[Polygon], options: &GapOptions, hair: f64) -> 
     let mut out = Vec::new();
     for polygon in region {
         let before = out.len();
+        if fill.is_spot(polygon) {
+            fill.pin(polygon, &mut out);
+        }
+        if out.len() > before {
+            continue;
+        }
         let mesh = mesh::Mesh::new(polygon, fill.longest_edge(), 8.0 * fill.spacing);
         if (mesh.area() - polygon.area()).abs() > 1e-3 * polygon.area() {
             // The border touches itself.
@@ -123,11 +132,20 @@ impl Fill {
         ((thickness / self.spacing - 0.1).round() as usize).clamp(2, 64)
     }
 
-    /// A small loop for what has no middle line: as thick one way as the other.
+    /// Whether loops are asked for and one alone fills a polygon, as thick one way as the other.
+    fn is_spot(&self, polygon: &Polygon) -> bool {
+        let (area, around) = (polygon.area(), polygon.outer.length());
+        let round = 4.0 * std::f64::consts::PI * area / (around * around);
+        self.loops && polygon.holes.is_empty() && round > ROUND && area / around <= 0.5 * self.most
+    }
+
+    /// A small loop for what has no middle line: as deep inside as its bead is half wide.
     fn pin(&self, polygon: &Polygon, out: &mut Vec<Path>) {
         let area = polygon.area();
+        // Half the radius, for a disc.
+        let deep = (area / polygon.outer.length()).clamp(0.5 * self.least, 0.5 * self.most);
         let polygon = std::slice::from_ref(polygon);
-        let inner = ClipperInset::default().inset(polygon, 0.5 * self.least);
+        let inner = ClipperInset::default().inset(polygon, deep);
         for ring in inner.into_iter().map(|p| p.outer) {
             let fills = (area / ring.length()).clamp(self.least, self.most);
             out.push(Path {

@@ -160,3 +160,19 @@ fn what_ends_in_a_point_has_its_volume() {
     let share = volume(&paths) / (spike[0].area() * HEIGHT);
     assert!((share - 1.0).abs() < 0.06, "{share}");
 }
+
+#[test]
+fn spots_take_a_loop_of_their_volume() {
+    for hundredths in 16..=58 {
+        let radius = 0.01 * f64::from(hundredths);
+        let disc = Polygon::simple(radial(Point2::new(3.0, 4.0), 40, |_| radius));
+        let square = rectangle(1.0, 2.0, 1.8 * radius, 2.2 * radius);
+        for spot in [disc, square] {
+            let spot = [spot];
+            let paths = gap_fill(&spot, &GapOptions { loops: true, ..options() });
+            assert!(paths.len() == 1 && paths[0].closed, "{radius}: {paths:?}");
+            let share = volume(&paths) / (spot[0].area() * HEIGHT);
+            assert!((share - 1.0).abs() < 0.06, "{radius}: {share}");
+        }
+    }
+}
