@@ -43,6 +43,7 @@
 //!     materials: ["red", "white"].map(|name| Material { name: name.into(), color: None }).into(),
 //!     fractions: Arc::new(VolumeFractions::from_exprs(&weights, None, FractionMode::Probability)?),
 //!     bounds: Bounds3::new(Point3::splat(-10.0), Point3::splat(10.0)),
+//!     density: None,
 //! };
 //! let mixture = design.fractions.mixture(Point3::new(5.0, 0.0, 0.0))?;
 //! assert_eq!(mixture.fractions(), [0.75, 0.25]);
