@@ -73,12 +73,23 @@ fn against_covers_and_fills() {
     let (report, gcode) = slice(&builtin("slab"), "geeetech-mizar-m", &settings);
     let beads = deposit(&gcode).beads;
     let volume: f64 = beads.iter().map(|b| b.volume).sum();
-    assert!((volume / report.model_mm3 - 1.0).abs() < 0.02, "{volume} of {}", report.model_mm3);
+    assert!((volume / report.model_mm3 - 1.0).abs() < 0.01, "{volume} of {}", report.model_mm3);
     let (mean, greatest) = composition_error(&beads);
     assert!(mean < 0.25 / 48.0 + 0.001, "{mean}");
     assert!(greatest < 1.0 / 48.0, "{greatest}");
     let layer: Vec<&Bead> = beads.iter().filter(|b| b.layer == 1).collect();
     let area = report.model_mm3 / 2.0 / 0.2;
     let share = covered(&layer) / area;
-    assert!((0.97..1.01).contains(&share), "{share} of the layer is under beads");
+    assert!((0.99..1.01).contains(&share), "{share} of the layer is under beads");
+}
+
+#[test]
+fn against_travels_little() {
+    let mut settings = settings(Strategy::Against, 12);
+    settings.lead.volume = Some(0.0);
+    settings.slice.last_layer = Some(3);
+    let (report, gcode) = slice(&builtin("slab"), "geeetech-mizar-m", &settings);
+    let length: f64 = deposit(&gcode).beads.iter().map(Bead::length).sum();
+    // Of all ten layers it is 2.9 %; the way to the first one counts here for more.
+    assert!(report.travel_mm < 0.035 * length, "{} of {length}", report.travel_mm);
 }
