@@ -1,4 +1,5 @@
 use super::*;
+use crate::begin_at_seams;
 use proptest::prelude::*;
 
 fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {
