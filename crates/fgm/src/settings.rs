@@ -4,77 +4,20 @@
 //! defaults, and the list that `fgm settings` prints all come from it. What belongs to a machine
 //! (speeds, retraction, temperatures) is in its profile, not here.
 
+mod check;
+mod options;
+mod table;
+
 use serde::{Deserialize, Serialize};
 
 use crate::choice::{Aim, ColorCount, SectionBy, Strategy, Zipper};
 use crate::density::Density;
 use crate::purge::{PurgeInto, PurgeLayout};
-use fgm_contour::ContourOptions;
-use fgm_core::Point2;
-use fgm_toolpath::{
-    BrimOptions, FaceFill, Monotonic, OrderOptions, Pattern, RoleOrder, Seam, SkirtOptions,
-    WayOptions,
-};
+use fgm_toolpath::{FaceFill, Monotonic, Pattern, RoleOrder, Seam};
 
-/// One line of the list of settings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SettingInfo {
-    /// The section of the settings file.
-    pub section: &'static str,
-    /// The key in its section.
-    pub key: &'static str,
-    /// The unit, or the kind of value.
-    pub unit: &'static str,
-    /// The default, as the settings file would say it, or where it comes from.
-    pub default: &'static str,
-    /// What it does.
-    pub help: &'static str,
-}
-
-macro_rules! settings {
-    ($(
-        #[doc = $section_doc:literal]
-        $section:ident: $Section:ident {
-            $( #[doc = $doc:literal] $key:ident: $type:ty = $default:expr, $shown:literal, $unit:literal; )*
-        }
-    )*) => {
-        /// All settings of a slice. Every key may be left out of a file; unknown keys are errors.
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-        #[serde(default, deny_unknown_fields)]
-        pub struct Settings {
-            $( #[doc = $section_doc] pub $section: $Section, )*
-            /// Changes to the printer's profile, laid over it.
-            #[serde(skip_serializing_if = "toml::Table::is_empty")]
-            pub machine: toml::Table,
-        }
-
-        $(
-            #[doc = $section_doc]
-            #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-            #[serde(default, deny_unknown_fields)]
-            pub struct $Section {
-                $( #[doc = $doc] pub $key: $type, )*
-            }
-
-            impl Default for $Section {
-                fn default() -> Self {
-                    Self { $( $key: $default, )* }
-                }
-            }
-        )*
-
-        /// The settings in the order of the file, for listing.
-        pub const SETTINGS: &[SettingInfo] = &[$($(
-            SettingInfo {
-                section: stringify!($section),
-                key: stringify!($key),
-                unit: $unit,
-                default: $shown,
-                help: $doc,
-            },
-        )*)*];
-    };
-}
+pub use check::SettingError;
+pub use table::SettingInfo;
+use table::settings;
 
 settings! {
     #[doc = "How the part becomes paths."]
@@ -248,198 +191,6 @@ settings! {
         gap: f64 = 0.0, "0", "mm";
     }
 }
-
-impl Settings {
-    /// Thickness of the first layer, mm.
-    pub fn first_height(&self) -> f64 {
-        self.layer.first_height.unwrap_or(self.layer.height)
-    }
-
-    /// What the deposit is to come near to: a zipper's colours interlock where the design has one
-    /// mixture, so they are kept.
-    pub(crate) fn aim(&self) -> Aim {
-        let zipper =
-            self.slice.strategy == Strategy::Sectioned && self.palette.zipper != Zipper::NONE;
-        let usual = if zipper { Aim::Colors } else { Aim::Design };
-        self.compensation.aim.unwrap_or(usual)
-    }
-
-    /// How the part's outlines are traced.
-    pub(crate) fn outline_options(&self) -> ContourOptions {
-        ContourOptions { sharp: true, ..self.isoline_options() }
-    }
-
-    /// How the palette's boundaries are traced. The material need not be a number outside the
-    /// part.
-    pub(crate) fn isoline_options(&self) -> ContourOptions {
-        ContourOptions {
-            cell: self.contour.cell,
-            root_tolerance: self.contour.root,
-            simplify: self.contour.tolerance,
-            sharp: false,
-            skip_nan: true,
-            ..ContourOptions::default()
-        }
-    }
-
-    /// The narrowest and widest bead of fills against the gradient, mm.
-    pub(crate) fn bead_widths(&self) -> (f64, f64) {
-        let width = self.layer.bead_width;
-        let AgainstSettings { min_width, max_width, .. } = self.against;
-        (min_width.unwrap_or(0.6 * width), max_width.unwrap_or(1.6 * width))
-    }
-
-    /// How far an offset may move a border by dropping vertices first, mm: half of what a path may
-    /// be off, so that the other half is left for the path itself.
-    pub(crate) fn inset_simplification(&self) -> f64 {
-        (0.5 * self.contour.resolution).clamp(1e-4, 0.1)
-    }
-
-    /// How the pieces of a layer, from 0, are put in order. `corner` is the design's of greatest x
-    /// and y.
-    pub(crate) fn order_options(&self, layer: usize, corner: Point2) -> OrderOptions {
-        OrderOptions {
-            roles: self.order.walls,
-            seam: self.order.seam,
-            seam_point: self.order.seam_point.map_or(corner, Point2::from),
-            layer: layer as u32,
-            improve: self.order.effort,
-            monotonic: match self.infill.pattern {
-                // Loops have no direction of advance.
-                Pattern::Concentric if self.infill.density == Density::Percent(100.0) => {
-                    Monotonic::Off
-                }
-                _ => self.skins.monotonic,
-            },
-            direction: 0.0,
-        }
-    }
-
-    /// The direction of lines on a layer, from 0, in radians, and the number by which patterns turn
-    /// them.
-    pub(crate) fn infill_direction(&self, layer: usize) -> (f64, usize) {
-        let InfillSettings { angle, angles, .. } = &self.infill;
-        match angles.len() {
-            0 => (angle.to_radians(), layer),
-            count => (angles[layer % count].to_radians(), 0),
-        }
-    }
-
-    /// How travels keep off the outer wall; none where they need not.
-    pub(crate) fn way_options(&self) -> Option<WayOptions> {
-        let TravelSettings { avoid_crossing, max_detour } = self.travel;
-        avoid_crossing.then_some(WayOptions { width: self.layer.bead_width, max_detour })
-    }
-
-    /// The brim on a first layer.
-    pub(crate) fn brim_options(&self) -> BrimOptions {
-        let BrimSettings { width, gap } = self.brim;
-        BrimOptions { width, gap, bead_width: self.layer.bead_width, height: self.first_height() }
-    }
-
-    /// The loops around the part and its brim.
-    pub(crate) fn skirt_options(&self) -> SkirtOptions {
-        SkirtOptions {
-            loops: u32::try_from(self.skirt.loops).unwrap_or(u32::MAX),
-            distance: self.brim_options().reach() + self.skirt.gap,
-            width: self.layer.bead_width,
-        }
-    }
-
-    /// How far brim and skirt reach beyond the part, mm.
-    pub(crate) fn reach(&self) -> f64 {
-        match self.skirt.loops {
-            0 => self.brim_options().reach(),
-            loops => self.skirt_options().distance + loops as f64 * self.layer.bead_width,
-        }
-    }
-
-    /// Checks what types cannot: that lengths are positive, shares are shares.
-    ///
-    /// # Errors
-    /// The first setting out of its range, with the range.
-    pub fn check(&self) -> Result<(), SettingError> {
-        let within = |key, value: f64, range: std::ops::RangeInclusive<f64>, wanted| {
-            if range.contains(&value) { Ok(()) } else { Err(SettingError { key, value, wanted }) }
-        };
-        let length = |key, value| within(key, value, 0.001..=100.0, "0.001 to 100 mm");
-        length("layer.height", self.layer.height)?;
-        length("layer.first_height", self.first_height())?;
-        length("layer.bead_width", self.layer.bead_width)?;
-        // A bead is a capsule, wider than high.
-        let width = self.layer.bead_width;
-        within("layer.height", self.layer.height, 0.0..=width, "at most layer.bead_width")?;
-        within("layer.first_height", self.first_height(), 0.0..=width, "at most layer.bead_width")?;
-        within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
-        within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
-        within("section.shortest", self.section.shortest, 0.0..=1000.0, "0 to 1000 mm")?;
-        within("section.turns", self.section.turns, 0.0..=90.0, "0 to 90 degrees")?;
-        within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
-        within("contour.root", self.contour.root, 1e-9..=1.0, "1e-9 to 1 mm")?;
-        let density = self.infill.density.percent().unwrap_or(0.0);
-        within("infill.density", density, 0.0..=100.0, "0 to 100 percent")?;
-        within("infill.angle", self.infill.angle, -3600.0..=3600.0, "an angle in degrees")?;
-        for angle in &self.infill.angles {
-            within("infill.angles", *angle, -3600.0..=3600.0, "an angle in degrees")?;
-        }
-        within("infill.reach", self.infill.reach, 0.0..=200.0, "0 to 200 mm")?;
-        let effort = f64::from(self.order.effort);
-        within("order.effort", effort, 0.0..=1e6, "0 to 1000000")?;
-        for x in self.order.seam_point.into_iter().flatten() {
-            within("order.seam_point", x, -1e6..=1e6, "-1000000 to 1000000 mm")?;
-        }
-        within("palette.auto_short_share", self.palette.auto_short_share, 0.0..=1.0, "0 to 1")?;
-        within("palette.short_piece", self.palette.short_piece, 0.0..=1e6, "0 or more")?;
-        let (least, most) = self.bead_widths();
-        within("against.min_width", least, f64::MIN_POSITIVE..=f64::MAX, "above 0 mm")?;
-        within("against.max_width", most, least..=f64::MAX, "at least against.min_width")?;
-        within("purge.volume", self.purge.volume.unwrap_or(0.0), 0.0..=1e5, "0 to 100000 mm3")?;
-        within("purge.threshold", self.purge.threshold, 0.0..=1e6, "0 to 1000000 mm3")?;
-        within("purge.tolerance", self.purge.tolerance, 0.0..=1.0, "0 to 1")?;
-        within("purge.clearance", self.purge.clearance, 0.0..=1e3, "0 to 1000 mm")?;
-        within("lead.volume", self.lead.volume.unwrap_or(0.0), 0.0..=1e6, "0 to 1000000 mm3")?;
-        let compensation = &self.compensation;
-        let off = compensation.uncertainty;
-        within("compensation.uncertainty", off, 0.0..=0.9, "0 to 0.9")?;
-        within("compensation.shortest", compensation.shortest, 1e-3..=1e5, "0.001 to 100000 mm3")?;
-        let cooling = &self.cooling;
-        within("cooling.min_layer_time", cooling.min_layer_time, 0.0..=3600.0, "0 to 3600 s")?;
-        within("cooling.min_speed", cooling.min_speed, 0.1..=1e4, "0.1 to 10000 mm/s")?;
-        within("travel.max_detour", self.travel.max_detour, 0.0..=1e6, "0 to 1000000 mm")?;
-        within("walls.overhang", self.walls.overhang, 0.0..=0.5, "0 to 0.5")?;
-        within("bridges.flow", self.bridges.flow, 0.1..=3.0, "0.1 to 3")?;
-        within("bridges.anchor", self.bridges.anchor, 0.0..=100.0, "0 to 100 mm")?;
-        let foot = self.layer.elephant_foot;
-        within("layer.elephant_foot", foot, 0.0..=5.0, "0 to 5 mm")?;
-        within("brim.width", self.brim.width, 0.0..=100.0, "0 to 100 mm")?;
-        within("brim.gap", self.brim.gap, 0.0..=100.0, "0 to 100 mm")?;
-        within("skirt.gap", self.skirt.gap, 0.0..=1e3, "0 to 1000 mm")?;
-        let count = |key, value: usize, most: usize, wanted| {
-            within(key, value as f64, 0.0..=most as f64, wanted)
-        };
-        count("walls.count", self.walls.count, 10_000, "0 to 10000")?;
-        count("skins.top", self.skins.top, 10_000, "0 to 10000 layers")?;
-        count("skins.bottom", self.skins.bottom, 10_000, "0 to 10000 layers")?;
-        count("skirt.loops", self.skirt.loops, 100, "0 to 100")?;
-        let first = self.slice.first_layer as f64;
-        within("slice.first_layer", first, 1.0..=1e9, "1 or more")?;
-        let last = self.slice.last_layer.map_or(1e9, |l| l as f64);
-        within("slice.last_layer", last, first..=1e9, "at least slice.first_layer")
-    }
-}
-
-/// A setting out of its range.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{key} is {value}, where {wanted} is possible")]
-pub struct SettingError {
-    /// `section.key`.
-    pub key: &'static str,
-    /// What it is.
-    pub value: f64,
-    /// The range.
-    pub wanted: &'static str,
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -462,19 +213,5 @@ mod tests {
                 None => assert!(!info.default.is_empty(), "{}.{}", info.section, info.key),
             }
         }
-    }
-
-    #[test]
-    fn out_of_range_is_named() {
-        let mut settings = Settings::default();
-        assert_eq!(settings.check(), Ok(()));
-        settings.layer.height = f64::NAN;
-        assert_eq!(settings.check().unwrap_err().key, "layer.height");
-        settings.layer.height = 0.2;
-        settings.infill.density = 101.0.into();
-        assert_eq!(
-            settings.check().unwrap_err().to_string(),
-            "infill.density is 101, where 0 to 100 percent is possible"
-        );
     }
 }
