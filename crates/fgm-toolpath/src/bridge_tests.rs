@@ -6,7 +6,7 @@ use crate::ClipperInset;
 const WALLS: f64 = 1.2;
 
 fn options() -> BridgeOptions {
-    BridgeOptions { width: 0.4, anchor: 1.0, reach: WALLS }
+    BridgeOptions { width: 0.4, anchor: 1.0, reach: WALLS, ledge: 0.0, least: 0.0 }
 }
 
 fn rectangle(x: (f64, f64), y: (f64, f64)) -> Polygon {
@@ -27,6 +27,12 @@ fn turned(region: &[Polygon], angle: f64) -> Vec<Polygon> {
     let polygon =
         |p: &Polygon| Polygon { outer: ring(&p.outer), holes: p.holes.iter().map(ring).collect() };
     region.iter().map(polygon).collect()
+}
+
+/// The bridges of a whole layer, without walls, over one of that outline.
+fn bare(outline: &[Polygon], below: &[Polygon], ledge: f64, least: f64) -> Vec<Bridge> {
+    let options = BridgeOptions { reach: 0.4, ledge, least, ..options() };
+    bridges(outline, below, &Support::new(below), &options, &ClipperInset::default())
 }
 
 /// The bridges of a layer of this outline over one of that outline.
@@ -103,4 +109,41 @@ fn bridges_of_one_layer_are_disjoint() {
     assert_eq!(bridges.len(), 2);
     let both = region::intersection(&bridges[0].region, &bridges[1].region);
     assert!(region::area(&both) < 1e-3);
+}
+
+#[test]
+fn a_ledge_is_no_bridge() {
+    let plate = [rectangle((0.0, 40.0), (0.0, 20.0))];
+    let slot = |x, y| hole(plate[0].clone(), rectangle(x, y));
+    // The layer reaches into a slot by so much all round; then over all of it, and over the middle
+    // of a gap between two pillars.
+    let below = [slot((5.0, 35.0), (5.0, 15.0))];
+    for (step, count) in [(0.5, 0), (1.0, 0), (2.0, 1)] {
+        let here = [slot((5.0 + step, 35.0 - step), (5.0 + step, 15.0 - step))];
+        assert_eq!(bare(&here, &below, 1.2, 0.0).len(), count, "{step}");
+        assert_eq!(bare(&here, &below, 0.0, 0.0).len(), 1, "{step}: all are, but for that");
+    }
+    assert_eq!(bare(&plate, &below, 1.2, 0.0).len(), 1);
+    // Short lines, of which not all are held: a step into a small bore.
+    let bore = [slot((18.0, 22.0), (8.0, 11.0))];
+    assert_eq!(bare(&[slot((18.5, 21.5), (8.5, 10.5))], &bore, 1.2, 0.0), []);
+    assert_eq!(bare(&plate, &bore, 1.2, 0.0).len(), 1);
+    assert_eq!(bare(&plate, &[slot((5.0, 35.0), (9.0, 11.0))], 1.2, 0.0).len(), 1);
+    let pillars = [rectangle((0.0, 19.0), (0.0, 20.0)), rectangle((21.0, 40.0), (0.0, 20.0))];
+    assert_eq!(bare(&plate, &pillars, 1.2, 0.0).len(), 1);
+}
+
+#[test]
+fn what_is_too_narrow_beside_a_bridge_goes_with_it() {
+    let beam = [rectangle((0.0, 30.0), (0.0, 10.0))];
+    for (thick, least, length) in
+        [(1.2, 0.0, 29.6), (1.2, 0.24, 30.0), (1.2, 0.1, 29.6), (2.0, 0.24, 28.0)]
+    {
+        let pillars =
+            [rectangle((0.0, thick), (0.0, 10.0)), rectangle((30.0 - thick, 30.0), (0.0, 10.0))];
+        let bridges = bare(&beam, &pillars, 1.2, least);
+        assert_eq!(bridges.len(), 1);
+        let area = region::area(&bridges[0].region);
+        assert!((area - 10.0 * length).abs() < 0.01, "{thick} {least}: {area}");
+    }
 }

@@ -2,13 +2,22 @@
 
 use std::collections::BTreeMap;
 
-use fgm_core::{ColorId, Polygon, bead};
-use fgm_toolpath::{AgainstOptions, Inset, Path, Piece, against, region, route};
+use fgm_core::{ColorId, Point2, Polygon, bead};
+use fgm_toolpath::{
+    AgainstOptions, BridgeOptions, Inset, Path, Piece, against, join_ends, order_with, region,
+    route,
+};
 use rayon::prelude::*;
 
 use crate::{
-    error::SliceError, graded::GradedLayer, job::Job, layers::Layer, stages::StageSeconds,
-    stages::timed,
+    bridged::{Bridged, bridged},
+    error::SliceError,
+    graded::GradedLayer,
+    job::Job,
+    layers::Layer,
+    outlines::Outline,
+    sectioned::{by_field, cut},
+    stages::{StageSeconds, timed},
 };
 
 /// The least share of its volume that a face's beads must have; else it is narrower than a bead.
@@ -20,9 +29,13 @@ const MOST_AREA: f64 = 0.9;
 /// The most colours that are taken for one, where bands are narrower than a bead.
 const MOST_MERGED: u16 = 64;
 
+/// How many beads over air, side by side along what holds them, are no bridge yet: as many as the
+/// walls of strategy 1 are.
+const LEDGE: f64 = 3.0;
+
 /// The faces of a layer, filled.
 pub(crate) struct Filled {
-    /// A round of pieces for each face, before ordering.
+    /// A round of pieces for each face, and for each colour of a bridge, before ordering.
     pub(crate) routes: Vec<Vec<Piece>>,
     pub(crate) faces: usize,
     /// How many colours were taken for one, but for few places; 1 where every band is wide enough.
@@ -34,6 +47,7 @@ pub(crate) fn routes(
     job: &Job<'_>,
     layer: &Layer,
     region: &[Polygon],
+    below: Option<&Outline>,
     seconds: &mut StageSeconds,
 ) -> Result<Filled, SliceError> {
     let settings = job.settings;
@@ -42,6 +56,11 @@ pub(crate) fn routes(
     // volume. The part's own border must lie half a width outside the bead instead.
     let shrink = 0.5 * (width - bead::spacing(width, layer.height));
     let region = timed(&mut seconds.toolpath, || job.inset.inset(region, shrink));
+    let below = below.filter(|_| settings.bridges.enabled);
+    let (bridges, region) = match below {
+        Some(below) => timed(&mut seconds.toolpath, || bridge_routes(job, layer, region, below))?,
+        None => (Vec::new(), region),
+    };
     let graded = GradedLayer::new(job, layer, &region, seconds)?;
     let (min_width, max_width) = settings.bead_widths();
     let options = AgainstOptions {
@@ -79,8 +98,51 @@ pub(crate) fn routes(
             let last = ColorId(job.palette.colors().saturating_sub(1) as u16);
             merged = merge(narrow, last, layer.height, &fill, &mut filled);
         }
+        filled.extend(bridges);
         Ok(Filled { routes: filled, faces: count, merged })
     })
+}
+
+/// The bridges in a layer's region, as a route for each of their colours, and what they leave of it.
+///
+/// Over air loops would fall: there the lines go straight across, to the region's border, and are
+/// cut by colour like those of strategy 1.
+fn bridge_routes(
+    job: &Job<'_>,
+    layer: &Layer,
+    region: Vec<Polygon>,
+    below: &Outline,
+) -> Result<(Vec<Vec<Piece>>, Vec<Polygon>), SliceError> {
+    let settings = job.settings;
+    let width = settings.layer.bead_width;
+    let options = BridgeOptions {
+        width,
+        anchor: settings.bridges.anchor,
+        reach: width,
+        ledge: LEDGE * width,
+        least: settings.bead_widths().0,
+    };
+    let Bridged { lines, rest } = bridged(job, layer, region, below, &options);
+    let mut routes = Vec::new();
+    for lines in lines {
+        let simple = |path: Path| path.simplified(settings.contour.resolution);
+        let lines: Vec<Path> = lines.into_iter().map(simple).collect();
+        let (sections, mut pieces) = (by_field(job, layer, job.bands), Vec::new());
+        cut(job, layer, &lines, &sections, &mut pieces);
+        sections.finish()?;
+        let mut colors: BTreeMap<ColorId, Vec<Piece>> = BTreeMap::new();
+        for piece in pieces {
+            colors.entry(piece.color).or_default().push(piece);
+        }
+        let order = settings.order_options(layer.index, Point2::ZERO);
+        routes.extend(colors.into_iter().map(|(color, pieces)| {
+            let start = pieces.first().and_then(|p| p.points.first().copied()).unwrap_or_default();
+            let mut route = order_with(pieces, &[color], start, &order);
+            join_ends(&mut route, layer.height, settings.section.turns.to_radians());
+            route
+        }));
+    }
+    Ok((routes, rest))
 }
 
 /// A region of one colour.

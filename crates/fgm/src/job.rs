@@ -148,7 +148,7 @@ impl Job<'_> {
                 (timed(&mut seconds.toolpath, order), faces)
             }
             Strategy::Against => {
-                let filled = against::routes(self, layer, region, &mut seconds)?;
+                let filled = against::routes(self, layer, region, below.as_deref(), &mut seconds)?;
                 merged = filled.merged;
                 let colors = self.colors(filled.routes.iter().flatten(), layer);
                 let corner = self.design.bounds.max.truncate();
@@ -195,13 +195,15 @@ impl Job<'_> {
     }
 
     /// Cuts walls where they begin to hang over; against the gradient, where there are no walls,
-    /// every bead.
+    /// every bead but those of bridges.
     fn with_overhangs(&self, pieces: Vec<Piece>, below: Option<&Outline>) -> Vec<Piece> {
         let share = self.settings.walls.overhang;
         let (true, Some(below)) = (share > 0.0, below) else { return pieces };
         let all = self.settings.slice.strategy == Strategy::Against;
         let is_wall = |role| matches!(role, Role::OuterWall | Role::InnerWall | Role::GapFill);
-        mark_overhangs(pieces, below.border(), share, |role| all || is_wall(role))
+        mark_overhangs(pieces, below.border(), share, |role| {
+            is_wall(role) || (all && role != Role::Bridge)
+        })
     }
 
     /// The colours of pieces in the order of printing.

@@ -37,6 +37,7 @@ mod against;
 mod ahead;
 mod boundaries;
 mod boundary_lines;
+mod bridged;
 mod choice;
 mod colors;
 mod cooling;

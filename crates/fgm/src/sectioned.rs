@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use fgm_contour::ContourOptions;
 use fgm_core::{Band, Polygon, Role, Sectioner, bead};
 use fgm_toolpath::{
-    BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, bridges,
-    infill, infill_graded, infill_lightning, region, seam_length, section, skins_with, walls,
+    BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill,
+    infill_graded, infill_lightning, seam_length, section, skins_with, walls,
 };
 
 use crate::{
     boundaries::Bands,
+    bridged::{Bridged, bridged},
     choice::{SectionBy, Zipper},
     error::SliceError,
     field_sections::FieldSections,
@@ -18,7 +19,6 @@ use crate::{
     job::{Job, Seams},
     layers::Layer,
     outlines::{Outline, SharedOutline},
-    settings::BridgeSettings,
     short_sections::ShortSections,
     stages::{StageSeconds, timed},
 };
@@ -46,17 +46,9 @@ pub(crate) fn pieces(
         Ok::<_, SliceError>(paths.map(simple).collect::<Vec<_>>())
     })?;
     let mut pieces = Vec::new();
-    // The layer's index makes a zipper's teeth alternate upwards, too.
-    let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
-    let (material, shortest) = (job.design.fractions.as_ref(), job.settings.section.shortest);
+    let material = job.design.fractions.as_ref();
     let cut = |sections: &dyn Sectioner<Band>, pieces: &mut Vec<Piece>| {
-        let (palette, z) = (job.palette, layer.cut);
-        if shortest > 0.0 {
-            let sections = ShortSections { sections, material, palette, z, shortest };
-            section(&paths, &sections, &options, pieces);
-        } else {
-            section(&paths, sections, &options, pieces);
-        }
+        cut(job, layer, &paths, sections, pieces);
     };
     let faces = match job.settings.section.by {
         SectionBy::Field => {
@@ -87,7 +79,28 @@ pub(crate) fn pieces(
     Ok(Sectioned { pieces, faces, seams })
 }
 
-fn by_field<'a>(job: &Job<'_>, layer: &Layer, bands: Bands<'a>) -> FieldSections<'a> {
+/// Cuts paths by colour, and shares out what is too short.
+pub(crate) fn cut(
+    job: &Job<'_>,
+    layer: &Layer,
+    paths: &[Path],
+    sections: &dyn Sectioner<Band>,
+    pieces: &mut Vec<Piece>,
+) {
+    // The layer's index makes a zipper's teeth alternate upwards, too.
+    let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
+    let (material, shortest) = (job.design.fractions.as_ref(), job.settings.section.shortest);
+    let (palette, z) = (job.palette, layer.cut);
+    if shortest > 0.0 {
+        let sections = ShortSections { sections, material, palette, z, shortest };
+        section(paths, &sections, &options, pieces);
+    } else {
+        section(paths, sections, &options, pieces);
+    }
+}
+
+/// Where the material itself changes its colour.
+pub(crate) fn by_field<'a>(job: &Job<'_>, layer: &Layer, bands: Bands<'a>) -> FieldSections<'a> {
     let ContourOptions { cell, root_tolerance, .. } = job.isolines;
     FieldSections::new(bands, layer.cut, cell, root_tolerance)
 }
@@ -168,7 +181,16 @@ fn paths(
         _ => sparse,
     };
     let inside = match under.filter(|_| settings.bridges.enabled) {
-        Some(under) => bridged(job, walls.inside, under, &sparse, &mut paths),
+        Some(under) => {
+            let others = settings.walls.count.saturating_sub(1) as f64;
+            let reach = width + others * bead::spacing(width, layer.height);
+            // Ledges are walls' own, and what is left beside a bridge is filled however narrow.
+            let anchor = settings.bridges.anchor;
+            let options = BridgeOptions { width, anchor, reach, ledge: 0.0, least: 0.0 };
+            let Bridged { lines, rest } = bridged(job, layer, walls.inside, under, &options);
+            paths.extend(lines.into_iter().flatten());
+            rest
+        }
         None => walls.inside,
     };
     if job.filling.is_solid() && job.hidden_purges.is_none() {
@@ -199,37 +221,4 @@ fn paths(
         paths.extend(fill(&skins.sparse, sparse));
     }
     Ok(paths)
-}
-
-/// Fills the bridges in `inside` and appends their lines; what is left of it.
-fn bridged(
-    job: &Job<'_>,
-    mut inside: Vec<Polygon>,
-    below: &Outline,
-    usual: &InfillOptions,
-    paths: &mut Vec<Path>,
-) -> Vec<Polygon> {
-    let BridgeSettings { flow, anchor, .. } = job.settings.bridges;
-    let (width, height) = (usual.width, usual.height);
-    let reach =
-        width + job.settings.walls.count.saturating_sub(1) as f64 * bead::spacing(width, height);
-    let options = BridgeOptions { width, anchor, reach };
-    for bridge in bridges(&inside, &below.region, below.border(), &options, &job.inset) {
-        let solid = InfillOptions {
-            pattern: Pattern::Aligned,
-            density: 1.0,
-            angle: bridge.angle,
-            role: Role::Bridge,
-            ..*usual
-        };
-        // Lines as far apart as ever, of more or less volume.
-        let scaled = |mut path: Path| {
-            path.width = bead::width(flow * bead::area(path.width, height), height);
-            path.role = Role::Bridge;
-            path
-        };
-        paths.extend(infill(&bridge.region, &solid, &job.inset).into_iter().map(scaled));
-        inside = region::difference(&inside, &bridge.region);
-    }
-    inside
 }

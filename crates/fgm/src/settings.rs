@@ -62,7 +62,7 @@ settings! {
         #[doc = "Length below which a piece prints badly."]
         short_piece: f64 = 5.0, "5", "mm";
     }
-    #[doc = "Cutting of paths by colour, strategy sectioned."]
+    #[doc = "Cutting of paths by colour: all with strategy sectioned, those of bridges with strategy against."]
     section: SectionSettings {
         #[doc = "What paths are cut by: the field itself, or the faces its traced boundaries make."]
         by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
@@ -75,7 +75,7 @@ settings! {
     walls: WallSettings {
         #[doc = "How many walls."]
         count: usize = 3, "3", "count";
-        #[doc = "Share of a bead's width over air from which a wall hangs over, and is printed slower (the printer's speed.overhang, fan.overhang), with strategy against every bead; 0 for never."]
+        #[doc = "Share of a bead's width over air from which a wall hangs over, and is printed slower (the printer's speed.overhang, fan.overhang), with strategy against every bead outside bridges; 0 for never."]
         overhang: f64 = 0.25, "0.25", "share";
     }
     #[doc = "Solid layers below and above, strategy sectioned."]
@@ -87,9 +87,9 @@ settings! {
         #[doc = "Which are laid line beside line in one direction of advance, within each colour, so that they shine alike; at the cost of some travel."]
         monotonic: Monotonic = Monotonic::Off, "\"off\"", "off | top | all";
     }
-    #[doc = "What lies over air between places that hold it, strategy sectioned; its speed and fan are the printer's speed.bridge and fan.bridge."]
+    #[doc = "What lies over air between places that hold it; its speed and fan are the printer's speed.bridge and fan.bridge."]
     bridges: BridgeSettings {
-        #[doc = "Whether to look for bridges: they are solid, and their lines go the shortest way across."]
+        #[doc = "Whether to look for bridges: they are solid, and their lines go the shortest way across, with strategy against to the border of the part."]
         enabled: bool = true, "true", "true | false";
         #[doc = "Factor on the volume of their beads."]
         flow: f64 = 1.0, "1", "factor";

@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Bead, deposit, parse, settings, slice};
-use fgm::{Quiet, Settings, Slicer, Strategy, gcode::Machine};
+use fgm::{Quiet, Settings, Slicer, Strategy, core::Point2, gcode::Machine};
 
 /// A beam on two pillars, graded along it: layers 26 to 35 reach over 20 mm of air.
 const GATE: &str = r#"fgrade(["x/30 + 0.5", "0.5 - x/30"], ["a", "b"]) {
@@ -78,6 +78,93 @@ fn a_gate_is_bridged_across() {
     });
     assert!(beads(&without, "Bridge infill").is_empty());
     assert!(beads(&without, "Overhang perimeter").is_empty());
+}
+
+/// The share of the beam's area that the beads of a layer cover, looked at every 0.1 mm.
+fn covered(beads: &[Bead]) -> f64 {
+    let under = |p: Point2| {
+        beads.iter().any(|b| {
+            let way = b.to - b.from;
+            let along = (p - b.from).dot(way) / way.length_squared();
+            p.distance(b.from + way * along.clamp(0.0, 1.0)) <= 0.5 * b.width + 1e-3
+        })
+    };
+    let places = (0..300).flat_map(|i| (0..100).map(move |j| (i, j)));
+    let at = |i: i32, j: i32| Point2::new(f64::from(i) * 0.1 - 14.95, f64::from(j) * 0.1 - 4.95);
+    places.filter(|&(i, j)| under(at(i, j))).count() as f64 / 30_000.0
+}
+
+#[test]
+fn against_the_gradient_a_gate_is_bridged_across_too() {
+    let beads_of = |text: &str| deposit(text.as_bytes()).beads;
+    // On pillars of 5 mm, and of hardly more than two beads: nothing is left beside the bridge.
+    for (gap, reach) in [(20, 11.0), (28, 14.8)] {
+        let gate = GATE.replace("rectprism(20", &format!("rectprism({gap}"));
+        // No look-ahead: what is read back is then the colour of each bead.
+        let text = text(&gate, Strategy::Against, |s| s.lead.volume = Some(0.0));
+        let all = beads_of(&text);
+        let bridge: Vec<Bead> = all.iter().filter(|b| b.role == "Bridge infill").cloned().collect();
+        let number = bridge[0].layer;
+        assert!(bridge.iter().all(|b| b.layer == number));
+        assert!((bridge[0].z - bridge[0].height - 1.5).abs() < 1e-6, "{}", bridge[0].z);
+
+        // Straight along x over the whole width, on to what holds them.
+        let length: f64 = bridge.iter().map(Bead::length).sum();
+        let along: f64 = bridge.iter().map(|b| (b.to.x - b.from.x).abs()).sum();
+        assert!(along > 0.9 * length, "{along} {length}");
+        let far = |of: fn(Point2) -> f64| {
+            bridge.iter().map(|b| of(b.from).abs().max(of(b.to).abs())).fold(0.0, f64::max)
+        };
+        assert!((far(|p| p.x) - reach).abs() < 0.3, "{}", far(|p| p.x));
+        assert!((far(|p| p.y) - 4.8).abs() < 0.01, "{}", far(|p| p.y));
+        assert_eq!(feedrates(&text, "Bridge infill"), [25 * 60]);
+        assert!(beads(&text, "Overhang perimeter").is_empty());
+        // Each piece in the colour of its place: four bands along the beam.
+        for b in &bridge {
+            let band = |x: f64| (4.0 * (x / 30.0 + 0.5)).clamp(0.0, 3.999);
+            let (low, high) =
+                (band(b.from.x.min(b.to.x) + 0.01), band(b.from.x.max(b.to.x) - 0.01));
+            assert!(low as usize == b.color && high as usize == b.color, "{b:?}");
+        }
+
+        // The layer is as full as with strategy 1.
+        let sectioned = beads_of(&self::text(&gate, Strategy::Sectioned, |s| {
+            s.infill.density = 100.0.into();
+        }));
+        for (all, strategy) in [(&all, "against"), (&sectioned, "sectioned")] {
+            let layer: Vec<Bead> = all.iter().filter(|b| b.layer == number).cloned().collect();
+            let volume: f64 = layer.iter().map(|b| b.volume).sum();
+            assert!((volume / 60.0 - 1.0).abs() < 0.01, "{gap} {strategy}: {volume}");
+            let covered = covered(&layer);
+            assert!(covered > 0.99, "{gap} {strategy}: {covered}");
+        }
+    }
+}
+
+#[test]
+fn against_the_gradient_no_bridge_changes_nothing() {
+    let body = |text: String| -> Vec<String> {
+        text.lines().filter(|l| !l.starts_with("; ")).map(str::to_owned).collect()
+    };
+    // Layers that reach out by half a bead, by two beads, and not at all; and inwards, round a bore
+    // and along a slot.
+    let steps = FUNNEL.replace("6 - z", "6 - 4*z").replace("12", "24");
+    let inwards = |of: &str, slope: f64| {
+        let wall = format!("max(max(abs(x) - 23, abs(y) - 11.5), 10 - {slope}*z - {of})");
+        FUNNEL
+            .replace("(-12, -12, 0), (12", "(-23, -12, 0), (23")
+            .replace("hypot(x, y) - 6 - z", &wall)
+    };
+    let bores = [inwards("hypot(x, y)", 2.3), inwards("max(abs(x) - 12, abs(y))", 2.3)];
+    let straight = FUNNEL.replace("- z,", ",");
+    for source in [FUNNEL, &steps, &straight, &bores[0], &bores[1]] {
+        let with = body(text(source, Strategy::Against, |_| ()));
+        let without = body(text(source, Strategy::Against, |s| s.bridges.enabled = false));
+        assert!(with == without, "{source}");
+    }
+    let gate = |enabled| text(GATE, Strategy::Against, |s| s.bridges.enabled = enabled);
+    assert!(body(gate(true)) != body(gate(false)));
+    assert!(beads(&gate(false), "Bridge infill").is_empty());
 }
 
 #[test]

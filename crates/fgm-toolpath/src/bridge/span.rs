@@ -27,6 +27,17 @@ pub(super) struct Spans {
     width: f64,
 }
 
+/// A direction, and how far its lines reach.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Across {
+    /// Radians from +x.
+    pub(super) angle: f64,
+    /// How long lines sag as much as those that are held at both ends, mm: the cubic mean.
+    pub(super) span: f64,
+    /// The share of the lines that is held at both ends.
+    pub(super) held: f64,
+}
+
 /// What a direction comes to.
 #[derive(Clone, Copy)]
 struct Tally {
@@ -69,8 +80,8 @@ impl Spans {
         Self { parts, directions: along.chain(even).collect(), width: options.width }
     }
 
-    /// The best direction, radians; none where no direction has `least` of its lines held.
-    pub(super) fn best(&self, least: f64) -> Option<f64> {
+    /// The best direction; none where no direction has `least` of its lines held.
+    pub(super) fn best(&self, least: f64) -> Option<Across> {
         if !self.parts.iter().any(|part| part.2) {
             return None;
         }
@@ -84,7 +95,8 @@ impl Spans {
         let good = || tallies.iter().zip(&self.directions).filter(|t| share(t.0) >= most - NEARLY);
         let least = good().map(|(t, _)| sag(t)).fold(f64::INFINITY, f64::min);
         // The edges' own directions come first.
-        good().find(|(t, _)| sag(t) <= ALIKE * least).map(|(_, direction)| *direction)
+        let best = good().find(|(t, _)| sag(t) <= ALIKE * least);
+        best.map(|(t, &angle)| Across { angle, span: sag(t).cbrt(), held: share(t) })
     }
 
     fn tally(&self, direction: f64) -> Tally {
