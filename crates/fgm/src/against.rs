@@ -62,15 +62,7 @@ pub(crate) fn routes(
         None => (Vec::new(), region),
     };
     let graded = GradedLayer::new(job, layer, &region, seconds)?;
-    let (min_width, max_width) = settings.bead_widths();
-    let options = AgainstOptions {
-        fill: settings.against.fill,
-        min_width,
-        max_width,
-        angle: settings.infill.angle.to_radians(),
-        layer: layer.index,
-        ..AgainstOptions::new(width, layer.height)
-    };
+    let options = fill_options(job, layer);
     timed(&mut seconds.toolpath, || {
         let faces: Vec<_> =
             graded.faces().map(|(band, face)| Face { color: band.first, polygon: face }).collect();
@@ -101,6 +93,20 @@ pub(crate) fn routes(
         filled.extend(bridges);
         Ok(Filled { routes: filled, faces: count, merged })
     })
+}
+
+/// How a layer's faces are filled.
+fn fill_options(job: &Job<'_>, layer: &Layer) -> AgainstOptions {
+    let settings = job.settings;
+    let (min_width, max_width) = settings.bead_widths();
+    AgainstOptions {
+        fill: settings.against.fill,
+        min_width,
+        max_width,
+        angle: settings.infill.angle.to_radians(),
+        layer: layer.index,
+        ..AgainstOptions::new(settings.layer.bead_width, layer.height)
+    }
 }
 
 /// The bridges in a layer's region, as a route for each of their colours, and what they leave of it.

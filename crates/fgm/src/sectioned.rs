@@ -181,16 +181,7 @@ fn paths(
         _ => sparse,
     };
     let inside = match under.filter(|_| settings.bridges.enabled) {
-        Some(under) => {
-            let others = settings.walls.count.saturating_sub(1) as f64;
-            let reach = width + others * bead::spacing(width, layer.height);
-            // Ledges are walls' own, and what is left beside a bridge is filled however narrow.
-            let anchor = settings.bridges.anchor;
-            let options = BridgeOptions { width, anchor, reach, ledge: 0.0, least: 0.0 };
-            let Bridged { lines, rest } = bridged(job, layer, walls.inside, under, &options);
-            paths.extend(lines.into_iter().flatten());
-            rest
-        }
+        Some(under) => beside_bridges(job, layer, walls.inside, under, &mut paths),
         None => walls.inside,
     };
     if job.filling.is_solid() && job.hidden_purges.is_none() {
@@ -221,4 +212,27 @@ fn paths(
         paths.extend(fill(&skins.sparse, sparse));
     }
     Ok(paths)
+}
+
+/// Fills the bridges inside the walls and appends their lines; what is left beside them.
+fn beside_bridges(
+    job: &Job<'_>,
+    layer: &Layer,
+    inside: Vec<Polygon>,
+    below: &Outline,
+    paths: &mut Vec<Path>,
+) -> Vec<Polygon> {
+    let width = job.settings.layer.bead_width;
+    let others = job.settings.walls.count.saturating_sub(1) as f64;
+    let options = BridgeOptions {
+        width,
+        anchor: job.settings.bridges.anchor,
+        reach: width + others * bead::spacing(width, layer.height),
+        // Ledges are the walls' own, and what is left beside a bridge is filled however narrow.
+        ledge: 0.0,
+        least: 0.0,
+    };
+    let Bridged { lines, rest } = bridged(job, layer, inside, below, &options);
+    paths.extend(lines.into_iter().flatten());
+    rest
 }

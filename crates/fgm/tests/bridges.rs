@@ -149,13 +149,13 @@ fn against_the_gradient_no_bridge_changes_nothing() {
     // Layers that reach out by half a bead, by two beads, and not at all; and inwards, round a bore
     // and along a slot.
     let steps = FUNNEL.replace("6 - z", "6 - 4*z").replace("12", "24");
-    let inwards = |of: &str, slope: f64| {
-        let wall = format!("max(max(abs(x) - 23, abs(y) - 11.5), 10 - {slope}*z - {of})");
+    let inwards = |of: &str| {
+        let wall = format!("max(max(abs(x) - 23, abs(y) - 11.5), 10 - 2.3*z - {of})");
         FUNNEL
             .replace("(-12, -12, 0), (12", "(-23, -12, 0), (23")
             .replace("hypot(x, y) - 6 - z", &wall)
     };
-    let bores = [inwards("hypot(x, y)", 2.3), inwards("max(abs(x) - 12, abs(y))", 2.3)];
+    let bores = [inwards("hypot(x, y)"), inwards("max(abs(x) - 12, abs(y))")];
     let straight = FUNNEL.replace("- z,", ",");
     for source in [FUNNEL, &steps, &straight, &bores[0], &bores[1]] {
         let with = body(text(source, Strategy::Against, |_| ()));
@@ -190,5 +190,19 @@ fn what_hangs_over_is_slower_and_cooled() {
         assert!(rates.iter().all(|r| [24 * 60, 18 * 60].contains(r)), "{strategy}: {rates:?}");
         let told = |line: &str| funnel.lines().filter(|l| *l == line).count();
         assert!(told("M106 S204") >= 19 && told("M106 S51") >= 19, "{strategy}");
+    }
+}
+
+#[test]
+fn bridges_have_a_fan_of_their_own() {
+    let mut machine = Machine::builtin("generic-mixing").unwrap();
+    (machine.fan.speed, machine.fan.bridge) = (0.2, 0.6);
+    for strategy in [Strategy::Sectioned, Strategy::Against] {
+        let mut settings = settings(strategy, 4);
+        settings.purge.enabled = Some(false);
+        let mut gcode = Vec::new();
+        Slicer::new(&parse(GATE), &machine, &settings).slice(&mut gcode, &Quiet).unwrap();
+        let gate = String::from_utf8(gcode).unwrap();
+        assert!(gate.lines().any(|line| line == "M106 S153"), "{strategy}");
     }
 }
