@@ -124,6 +124,11 @@ pub(crate) struct SliceArguments {
     #[arg(long, value_name = "N")]
     pub(crate) walls: Option<usize>,
 
+    /// Above the bottom one wall only that rises evenly, without travels or a seam: a vase.
+    /// Strategy sectioned; stands for one wall, no infill and no top.
+    #[arg(long)]
+    pub(crate) spiral: bool,
+
     /// How much of the inside is filled, in percent; or a formula such as '10 + 40 z/50' of x, y, z
     /// and the distance d, for straight patterns [default: 15].
     #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
@@ -186,6 +191,8 @@ Examples:
     fgm slice designs/vase.vcad --printer geeetech-mizar-m --colors 16 --walls 10 --infill 0 -o vase.gcode
   A mesh graded from bottom to top over five heads, against the gradient:
     fgm slice benchy.3mf --fraction 'z/48' --printer prusa-xl-5t --strategy against -o benchy.gcode
+  One wall that rises without a step:
+    fgm slice designs/vase.vcad --spiral -o vase.gcode
   Colours that overlap by 15 mm, a setting from a file, one from the line, a report:
     fgm slice designs/dogbone.vcad --zipper 15mm --colors 3 --settings my.toml --set infill.angle=0 \\
         --report dogbone.json -o dogbone.gcode";

@@ -119,6 +119,10 @@ fn wrong_settings_are_named() {
     slice(&["--threads", "100000"], 2, &["--threads 100000"]);
     slice(&["--purge", "perhaps"], 2, &["perhaps"]);
     slice(&["--report", "no/report.json"], 1, &["report.json"]);
+    let against = ["--spiral", "--strategy", "against"];
+    slice(&against, 2, &["walls.spiral", "sectioned"]);
+    let heads = ["--spiral", "--printer", "prusa-xl-5t"];
+    slice(&heads, 2, &["layer 5", "z = -4.100 mm", "prusa-xl-5t"]);
 }
 
 #[test]

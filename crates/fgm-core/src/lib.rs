@@ -11,7 +11,7 @@
 //! | space | [`Point2`], [`Point3`], [`Bounds2`], [`Bounds3`], [`Interval`] |
 //! | shapes | [`Ring`], [`Polyline`], [`Polygon`], [`TriangleMesh`], [`long_chords`] |
 //! | material | [`Mixture`], [`ColorId`], [`Band`] |
-//! | printing | [`Role`], [`Motion`], [`bead`] |
+//! | printing | [`Role`], [`Motion`], [`Climb`], [`bead`] |
 //! | seams | [`Field`], [`PlanarField`], [`MaterialField`], [`Sectioner`] |
 //!
 //! # Conventions
@@ -40,6 +40,7 @@
 pub mod bead;
 mod bounds;
 mod chord;
+mod climb;
 mod color;
 mod field;
 mod interval;
@@ -52,6 +53,7 @@ mod section;
 
 pub use bounds::{Bounds2, Bounds3};
 pub use chord::long_chords;
+pub use climb::Climb;
 pub use color::{Band, ColorId};
 pub use field::{Field, MaterialError, MaterialField, PlanarField, Slice};
 pub use interval::Interval;

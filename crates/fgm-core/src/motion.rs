@@ -14,6 +14,15 @@ pub enum Motion {
         /// Thickness, mm.
         height: f64,
     },
+    /// The beads of this layer rise: from one height to the layer's own, evenly along this length
+    /// of them, and stay there. Their thickness is the layer's all the way. It comes after
+    /// [`Motion::Layer`], before any bead.
+    Rise {
+        /// Height of the beads' tops where the first one begins, mm.
+        from: f64,
+        /// Length of the beads over which they rise, in the plane, mm.
+        length: f64,
+    },
     /// From here on the deposit is to have this colour.
     Color(ColorId),
     /// From here on the machine is told to make this colour. Written ahead of [`Motion::Color`]

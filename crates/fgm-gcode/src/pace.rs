@@ -147,7 +147,7 @@ impl<'a> LayerTime<'a> {
                 }
                 self.state = state;
             }
-            Motion::Command(_) => {}
+            Motion::Rise { .. } | Motion::Command(_) => {}
             Motion::Travel { to } => {
                 let by = to - self.at.replace(to).unwrap_or(to);
                 self.way += by.length();

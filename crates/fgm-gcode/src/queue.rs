@@ -61,7 +61,7 @@ impl MotionQueue {
         match motion {
             Motion::Layer { height, .. } => self.height = height,
             Motion::Travel { to } => self.at = Some(to),
-            Motion::Color(_) | Motion::Command(_) => {}
+            Motion::Rise { .. } | Motion::Color(_) | Motion::Command(_) => {}
             Motion::Extrude { to, width, role } => {
                 from = self.at.replace(to).unwrap_or(to);
                 let area = bead::area(width, self.height) * self.flow[role as usize];

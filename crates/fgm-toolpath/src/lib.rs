@@ -23,6 +23,7 @@
 //! | lines of a part | [`walls`], [`skins`], [`infill`] with [`Pattern`] and [`Infill`] (the seam), [`infill_graded`], [`infill_lightning`], [`gap_fill`] |
 //! | lines of a face | [`against`], [`route`] |
 //! | colour | [`section`]; [`seam_length`] tells how far colours touch |
+//! | a wall that rises | [`Turn`], [`fade`] |
 //! | over air | [`Support`], [`mark_overhangs`], [`bridges`] |
 //! | order | [`order`], [`order_with`], [`order_routes`], [`connect`], [`join_ends`], [`begin_at_seams`], [`find_ways`] |
 //! | beside the part | [`Towers`], [`skirt`], [`brim`] |
@@ -87,6 +88,7 @@ mod section;
 mod section_runs;
 mod skins;
 mod skirt;
+mod spiral;
 mod support;
 mod tower;
 mod tower_layout;
@@ -110,12 +112,13 @@ pub use order_routes::order_routes;
 pub use order_seam::{Seam, begin_at_seams};
 pub use overhang::mark_overhangs;
 pub use path::{Path, Piece};
-pub use plan::{LayerPlan, LayerStats, Motions, SHORT_PIECE};
+pub use plan::{LayerPlan, LayerStats, Motions, Rise, SHORT_PIECE};
 pub use route::route;
 pub use seam::seam_length;
 pub use section::{SectionOptions, section};
 pub use skins::{Skins, skins, skins_with};
 pub use skirt::{SkirtOptions, skirt};
+pub use spiral::{Turn, fade};
 pub use support::{Hold, Scratch, Stretch, Support};
 pub use tower::{TowerOptions, Towers};
 pub use tower_layout::Side;

@@ -19,6 +19,17 @@ pub struct LayerPlan {
     pub height: f64,
     /// What is printed, in that order.
     pub pieces: Vec<Piece>,
+    /// How the layer rises; none for one that lies flat.
+    pub rise: Option<Rise>,
+}
+
+/// A layer's beads rise to its height along the first of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rise {
+    /// Height of the beads' tops where they begin, mm.
+    pub from: f64,
+    /// Length of the beads that rise, mm; those after them lie flat.
+    pub length: f64,
 }
 
 /// What a layer, or many, come to.
@@ -79,7 +90,19 @@ impl LayerPlan {
                 return not_finite("point", i);
             }
         }
-        Ok(Self { index, z, height, pieces })
+        Ok(Self { index, z, height, pieces, rise: None })
+    }
+
+    /// The layer, rising.
+    ///
+    /// # Errors
+    /// [`ToolpathError::NotFinite`] for a height or length that is not finite.
+    pub fn rising(mut self, rise: Rise) -> Result<Self, ToolpathError> {
+        if !(rise.from.is_finite() && rise.length.is_finite()) {
+            return Err(ToolpathError::NotFinite { layer: self.index, piece: 0, what: "height" });
+        }
+        self.rise = Some(rise);
+        Ok(self)
     }
 
     /// The first colour printed.
@@ -102,7 +125,8 @@ impl LayerPlan {
         self.pieces.iter().filter(|piece| has_length(piece))
     }
 
-    /// The layer as a stream of motions: [`Motion::Layer`], then the pieces.
+    /// The layer as a stream of motions: [`Motion::Layer`], [`Motion::Rise`] where it rises, then the
+    /// pieces.
     ///
     /// A colour is set where it changes, for the first piece where it is not `previous`, the last
     /// colour of the layer before. A piece is travelled to unless the one before ends where it
@@ -116,7 +140,8 @@ impl LayerPlan {
     /// may then have a way, too.
     pub fn motions_from(&self, end: Option<Point2>, previous: Option<ColorId>) -> Motions<'_> {
         let (piece, point, step) = (0, 0, 0);
-        Motions { plan: self, piece, point, step, at: None, end, color: previous, begun: false }
+        let (rise, at) = (self.rise, None);
+        Motions { plan: self, piece, point, step, at, end, color: previous, begun: false, rise }
     }
 
     /// What the layer comes to.
@@ -188,6 +213,8 @@ pub struct Motions<'a> {
     end: Option<Point2>,
     color: Option<ColorId>,
     begun: bool,
+    /// Not told yet.
+    rise: Option<Rise>,
 }
 
 impl Iterator for Motions<'_> {
@@ -198,6 +225,9 @@ impl Iterator for Motions<'_> {
             self.begun = true;
             let LayerPlan { index, z, height, .. } = *self.plan;
             return Some(Motion::Layer { index, z, height });
+        }
+        if let Some(Rise { from, length }) = self.rise.take() {
+            return Some(Motion::Rise { from, length });
         }
         loop {
             let piece = self.plan.pieces.get(self.piece)?;

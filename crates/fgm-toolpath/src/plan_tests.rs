@@ -14,12 +14,22 @@ fn plan(pieces: Vec<Piece>) -> LayerPlan {
 fn told(plan: &LayerPlan, previous: Option<ColorId>) -> String {
     let motion = |motion| match motion {
         Motion::Layer { index, z, height } => format!("layer {index} {z} {height}"),
+        Motion::Rise { from, length } => format!("rise {from} {length}"),
         Motion::Color(color) => format!("color {}", color.0),
         Motion::Command(color) => format!("command {}", color.0),
         Motion::Travel { to } => format!("to {},{}", to.x, to.y),
         Motion::Extrude { to, .. } => format!("{},{}", to.x, to.y),
     };
     plan.motions(previous).map(motion).collect::<Vec<_>>().join("; ")
+}
+
+#[test]
+fn a_layer_that_rises_says_so_first() {
+    let flat = plan(vec![piece(&[(0.0, 0.0), (1.0, 0.0)], 2, Role::OuterWall)]);
+    let rising = flat.clone().rising(Rise { from: 0.6, length: 1.0 }).unwrap();
+    let told = told(&rising, None);
+    assert_eq!(told, "layer 3 0.8 0.2; rise 0.6 1; color 2; to 0,0; 1,0");
+    assert!(flat.rising(Rise { from: f64::NAN, length: 1.0 }).is_err());
 }
 
 #[test]

@@ -64,6 +64,56 @@ pub enum SliceError {
         /// The pattern asked for.
         pattern: fgm_toolpath::Pattern,
     },
+    /// A spiral wall in strategy against.
+    #[error(
+        "walls.spiral is for strategy sectioned: printed against the gradient there are no walls. \
+         Choose --strategy sectioned, or leave the spiral out"
+    )]
+    SpiralStrategy,
+    /// A spiral wall around more than one outline.
+    #[error(
+        "layer {layer}, at z = {z:.3} mm of the design, has {outlines} outlines, and a spiral \
+         (walls.spiral) goes round one: print the layers below it only (--layers 1..{}), or print \
+         without the spiral", layer - 1
+    )]
+    SpiralOutlines {
+        /// From 1.
+        layer: usize,
+        /// Height of its middle in the design's coordinates, mm.
+        z: f64,
+        /// How many loops it would take.
+        outlines: usize,
+    },
+    /// A spiral wall would have to go on above a layer without a loop.
+    #[error(
+        "the part goes on in layer {layer}, at z = {z:.3} mm of the design, above layers that are \
+         narrower than a loop of the wall, where the spiral (walls.spiral) ends: print the layers \
+         below only (--layers 1..{}), or print without the spiral", layer - 1
+    )]
+    SpiralGap {
+        /// From 1: where it goes on.
+        layer: usize,
+        /// Height of its middle in the design's coordinates, mm.
+        z: f64,
+    },
+    /// A spiral wall of several colours on a printer with a head for each.
+    #[error(
+        "layer {layer}, at z = {z:.3} mm of the design: the spiral (walls.spiral) changes from \
+         colour {from} to {to}, which {printer} prints with another head, and it cannot leave the \
+         wall for that: choose a printer that mixes, or print without the spiral"
+    )]
+    SpiralHeads {
+        /// From 1.
+        layer: usize,
+        /// Height of its middle in the design's coordinates, mm.
+        z: f64,
+        /// The palette's colour before, from 0.
+        from: usize,
+        /// The one after it.
+        to: usize,
+        /// The printer's name.
+        printer: String,
+    },
     /// The design's distance, which the density asks for, could not be made.
     #[error("infill.density: {0}")]
     Distance(#[from] fgm_field::FieldError),

@@ -5,7 +5,7 @@ use fgm_core::{ColorId, Point2, Polygon, Role};
 use fgm_field::Design;
 use fgm_palette::Palette;
 use fgm_toolpath::{
-    ClipperInset, OrderOptions, Piece, Support, begin_at_seams, brim, find_ways, join_ends,
+    ClipperInset, OrderOptions, Piece, Rise, Support, begin_at_seams, brim, find_ways, join_ends,
     mark_overhangs, order_routes, order_with, skirt,
 };
 
@@ -26,6 +26,7 @@ use crate::{
     purge::{Needs, hidden_first},
     sectioned,
     settings::Settings,
+    spiral::Wall,
     stages::{StageSeconds, timed},
 };
 
@@ -67,6 +68,10 @@ pub(crate) struct PlannedLayer {
     pub(crate) index: usize,
     /// In printing order, colour by colour.
     pub(crate) pieces: Vec<Piece>,
+    /// The loop of a spiral, whose pieces are made in the order of the layers.
+    pub(crate) wall: Option<Wall>,
+    /// How these pieces rise.
+    pub(crate) rise: Option<Rise>,
     /// How many of them there are, before they are cut where they hang over, and how many of these
     /// are short.
     pub(crate) count: usize,
@@ -88,7 +93,10 @@ pub(crate) struct PlannedLayer {
 impl Job<'_> {
     /// Plans one layer, from its own inputs alone.
     pub(crate) fn plan(&self, index: usize) -> Result<PlannedLayer, SliceError> {
-        self.plan_layer(&self.layers.get(index)).map_err(|e| e.in_layer(index))
+        let layer = self.layers.get(index);
+        let planned =
+            if self.spirals(index) { self.plan_wall(&layer) } else { self.plan_layer(&layer) };
+        planned.map_err(|e| e.in_layer(index))
     }
 
     /// Makes what the first layers have in common, on one thread, and their outlines on another.
@@ -176,6 +184,8 @@ impl Job<'_> {
         Ok(PlannedLayer {
             index: layer.index,
             pieces,
+            wall: None,
+            rise: None,
             count,
             short,
             faces,
@@ -196,7 +206,7 @@ impl Job<'_> {
 
     /// Cuts walls where they begin to hang over; against the gradient, where there are no walls,
     /// every bead but those of bridges.
-    fn with_overhangs(&self, pieces: Vec<Piece>, below: Option<&Outline>) -> Vec<Piece> {
+    pub(crate) fn with_overhangs(&self, pieces: Vec<Piece>, below: Option<&Outline>) -> Vec<Piece> {
         let share = self.settings.walls.overhang;
         let (true, Some(below)) = (share > 0.0, below) else { return pieces };
         let all = self.settings.slice.strategy == Strategy::Against;

@@ -22,7 +22,7 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    fn new(region: Vec<Polygon>, warnings: Vec<String>) -> Self {
+    pub(crate) fn new(region: Vec<Polygon>, warnings: Vec<String>) -> Self {
         Self { region, warnings, border: OnceLock::new() }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use fgm_contour::ContourOptions;
-use fgm_core::{Band, Polygon, Role, Sectioner, bead};
+use fgm_core::{Band, Point2, Polygon, Role, Sectioner, bead};
 use fgm_toolpath::{
     BridgeOptions, InfillOptions, Path, Pattern, Piece, SectionOptions, WallOptions, infill,
     infill_graded, infill_lightning, seam_length, section, skins_with, walls,
@@ -16,9 +16,11 @@ use crate::{
     error::SliceError,
     field_sections::FieldSections,
     graded::{GradedLayer, check_material},
+    heights::Heights,
     job::{Job, Seams},
     layers::Layer,
     outlines::{Outline, SharedOutline},
+    rising_sections::RisingSections,
     short_sections::ShortSections,
     stages::{StageSeconds, timed},
 };
@@ -87,16 +89,51 @@ pub(crate) fn cut(
     sections: &dyn Sectioner<Band>,
     pieces: &mut Vec<Piece>,
 ) {
+    cut_at(job, layer, Heights::flat(layer.cut), paths, sections, pieces);
+}
+
+/// The same, where the material is looked up at these heights.
+fn cut_at(
+    job: &Job<'_>,
+    layer: &Layer,
+    heights: Heights,
+    paths: &[Path],
+    sections: &dyn Sectioner<Band>,
+    pieces: &mut Vec<Piece>,
+) {
     // The layer's index makes a zipper's teeth alternate upwards, too.
     let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
-    let (material, shortest) = (job.design.fractions.as_ref(), job.settings.section.shortest);
-    let (palette, z) = (job.palette, layer.cut);
+    let (material, palette) = (job.design.fractions.as_ref(), job.palette);
+    let shortest = job.settings.section.shortest;
     if shortest > 0.0 {
-        let sections = ShortSections { sections, material, palette, z, shortest };
+        let sections = ShortSections { sections, material, palette, heights, shortest };
         section(paths, &sections, &options, pieces);
     } else {
         section(paths, sections, &options, pieces);
     }
+}
+
+/// The pieces of a wall that is seen along a line, whose material is looked up at these heights.
+pub(crate) fn rising_wall(
+    job: &Job<'_>,
+    layer: &Layer,
+    line: Vec<Point2>,
+    heights: Heights,
+) -> Result<Vec<Piece>, SliceError> {
+    let path = Path {
+        points: line,
+        closed: false,
+        role: Role::OuterWall,
+        width: job.settings.layer.bead_width,
+        turn: 0,
+        turns: Vec::new(),
+    };
+    let ContourOptions { cell, root_tolerance, .. } = job.isolines;
+    let sections = RisingSections::new(job.bands, heights, cell, root_tolerance);
+    let mut pieces = Vec::new();
+    cut_at(job, layer, heights, &[path], &sections, &mut pieces);
+    sections.finish()?;
+    Ok(pieces)
 }
 
 /// Where the material itself changes its colour.

@@ -75,6 +75,8 @@ settings! {
     walls: WallSettings {
         #[doc = "How many walls."]
         count: usize = 3, "3", "count";
+        #[doc = "One wall that rises evenly instead of layer by layer, without travels or a seam, on the solid bottom layers (skins.bottom): above them the outer wall of a single outline, and nothing in it. It stands for walls.count = 1, infill.density = 0 and skins.top = 0, whatever these say; no tower is purged on along the spiral."]
+        spiral: bool = false, "false", "true | false";
         #[doc = "Share of a bead's width over air from which a wall hangs over, and is printed slower (the printer's speed.overhang, fan.overhang), with strategy against every bead outside bridges; 0 for never."]
         overhang: f64 = 0.25, "0.25", "share";
     }

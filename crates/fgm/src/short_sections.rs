@@ -3,6 +3,8 @@
 use fgm_core::{Band, ColorId, MaterialField, Point2, Sectioner, Span, point_at};
 use fgm_palette::Palette;
 
+use crate::heights::Heights;
+
 /// Halvings in the search for the place where two colours are equally wrong.
 const HALVINGS: usize = 26;
 /// What the search may add to an error.
@@ -17,7 +19,7 @@ pub(crate) struct ShortSections<'a> {
     pub(crate) sections: &'a dyn Sectioner<Band>,
     pub(crate) material: &'a dyn MaterialField,
     pub(crate) palette: &'a Palette,
-    pub(crate) z: f64,
+    pub(crate) heights: Heights,
     /// Shorter stretches are shared out, mm.
     pub(crate) shortest: f64,
 }
@@ -81,15 +83,15 @@ impl ShortSections<'_> {
         let cut = match (before, after) {
             (Some(before), Some(after)) => {
                 let (Some(one), Some(other)) = (color(before), color(after)) else { return };
-                self.middle(line.points, &span, one, other)
+                self.middle(line, &span, one, other)
             }
             (Some(before), None) => {
                 let Some(color) = color(before) else { return };
-                self.fits(line.points, &span, color).then_some(span.to)
+                self.fits(line, &span, color).then_some(span.to)
             }
             (None, Some(after)) => {
                 let Some(color) = color(after) else { return };
-                self.fits(line.points, &span, color).then_some(span.from)
+                self.fits(line, &span, color).then_some(span.from)
             }
             (None, None) => None,
         };
@@ -108,8 +110,9 @@ impl ShortSections<'_> {
     }
 
     /// How far a colour is from what the design asks for at a place; infinite where that is nothing.
-    fn error(&self, path: &[Point2], at: f64, color: ColorId) -> f64 {
-        let mixture = self.material.mixture(point_at(path, at).extend(self.z));
+    fn error(&self, line: &Line<'_>, at: f64, color: ColorId) -> f64 {
+        let z = self.heights.at(line.share(at));
+        let mixture = self.material.mixture(point_at(line.points, at).extend(z));
         mixture.map_or(f64::INFINITY, |mixture| mixture.distance(&self.palette.state(color)))
     }
 
@@ -118,16 +121,16 @@ impl ShortSections<'_> {
     }
 
     /// Whether a colour will do all over a stretch, looked at where it begins, ends, and between.
-    fn fits(&self, path: &[Point2], span: &Span<Band>, color: ColorId) -> bool {
+    fn fits(&self, line: &Line<'_>, span: &Span<Band>, color: ColorId) -> bool {
         let at = |share: f64| span.from + share * (span.to - span.from);
-        [0.0, 0.5, 1.0].iter().all(|&share| self.error(path, at(share), color) <= self.most())
+        [0.0, 0.5, 1.0].iter().all(|&share| self.error(line, at(share), color) <= self.most())
     }
 
     /// The place in a stretch up to which the colour before it and from which the one after it
     /// will do, both as wrong there; none where they will not.
     fn middle(
         &self,
-        path: &[Point2],
+        line: &Line<'_>,
         span: &Span<Band>,
         before: ColorId,
         after: ColorId,
@@ -135,7 +138,7 @@ impl ShortSections<'_> {
         let (mut low, mut high) = (span.from, span.to);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
-            if self.error(path, middle, before) < self.error(path, middle, after) {
+            if self.error(line, middle, before) < self.error(line, middle, after) {
                 low = middle;
             } else {
                 high = middle;
@@ -143,7 +146,7 @@ impl ShortSections<'_> {
         }
         let cut = 0.5 * (low + high);
         let (first, second) = (Span { to: cut, ..*span }, Span { from: cut, ..*span });
-        (self.fits(path, &first, before) && self.fits(path, &second, after)).then_some(cut)
+        (self.fits(line, &first, before) && self.fits(line, &second, after)).then_some(cut)
     }
 }
 
@@ -166,12 +169,19 @@ impl<'a> Line<'a> {
     }
 
     fn length(&self, from: f64, to: f64) -> f64 {
-        let up_to = |at: f64| {
-            let segment = (at.max(0.0) as usize).min(self.lengths.len() - 1);
-            let next = self.lengths.get(segment + 1).unwrap_or(&self.lengths[segment]);
-            self.lengths[segment] + (next - self.lengths[segment]) * (at - segment as f64)
-        };
-        (up_to(to) - up_to(from)).max(0.0)
+        (self.up_to(to) - self.up_to(from)).max(0.0)
+    }
+
+    fn up_to(&self, at: f64) -> f64 {
+        let segment = (at.max(0.0) as usize).min(self.lengths.len() - 1);
+        let next = self.lengths.get(segment + 1).unwrap_or(&self.lengths[segment]);
+        self.lengths[segment] + (next - self.lengths[segment]) * (at - segment as f64)
+    }
+
+    /// The share of the length up to a parameter.
+    fn share(&self, at: f64) -> f64 {
+        let whole = self.lengths.last().copied().unwrap_or(0.0);
+        if whole > 0.0 { (self.up_to(at) / whole).clamp(0.0, 1.0) } else { 0.0 }
     }
 }
 
@@ -191,8 +201,9 @@ mod tests {
         let palette = Palette::new(2, colors).unwrap();
         let bands = Bands::new(material, &palette, Zipper::NONE);
         let sections = FieldSections::new(bands, 0.0, 0.5, 1e-9);
+        let heights = Heights::flat(0.0);
         let short =
-            ShortSections { sections: &sections, material, palette: &palette, z: 0.0, shortest };
+            ShortSections { sections: &sections, material, palette: &palette, heights, shortest };
         let path = [Point2::new(-10.0, 0.0), Point2::new(10.0, 0.0)];
         let mut spans = Vec::new();
         short.section(&path, &mut spans);

@@ -20,6 +20,7 @@ use crate::{
     progress::Progress,
     report::Report,
     settings::Settings,
+    spiral::Spiral,
     stages::{StageSeconds, timed},
 };
 use warnings::{Warnings, unpurged};
@@ -85,10 +86,20 @@ impl<'a> Slicer<'a> {
         out: &mut dyn Write,
         progress: &dyn Progress,
     ) -> Result<Report, SliceError> {
+        self.settings.check()?;
+        let settings = self.settings.implied()?;
+        Slicer { settings: &settings, ..self.clone() }.slice_as_set(out, progress)
+    }
+
+    /// The same with settings that are checked and stand for themselves.
+    fn slice_as_set(
+        &self,
+        out: &mut dyn Write,
+        progress: &dyn Progress,
+    ) -> Result<Report, SliceError> {
         let start = Instant::now();
         let mut seconds = StageSeconds::default();
         let mut warnings = Warnings::new(progress);
-        self.settings.check()?;
         self.check_inputs()?;
         let pool = self.pool()?;
         let outliner = timed(&mut seconds.read, || {
@@ -106,7 +117,8 @@ impl<'a> Slicer<'a> {
         warnings.tell(colors::narrowed(&palette, self.design, self.settings, &outliner)?);
         let mut job = self.job(&outliner, &palette, layers, pool.current_num_threads())?;
         let offset = self.stand(&mut job, &mut range, &part, &mut warnings)?;
-        let purge = self.purge(&outliner, &palette, layers, range.clone(), (&part, offset))?;
+        let flat = range.start..job.flat_end(&range);
+        let purge = self.purge(&outliner, &palette, layers, flat, (&part, offset))?;
         let mut stream = self.stream(&palette, layers, offset, &range, purge, out)?;
 
         let mut report = Report::default();
@@ -115,6 +127,11 @@ impl<'a> Slicer<'a> {
         job.prepare(&pool, range.clone());
         let ahead = AHEAD_PER_THREAD * pool.current_num_threads();
         let make = |index| job.plan(index);
+        let mut spiral = Spiral::new(&job, Some(self.machine));
+        let mut write = |planned: PlannedLayer| {
+            self.count(&planned, &mut report, &mut seconds);
+            timed(&mut seconds.write, || stream.push(planned))
+        };
         pipeline::ordered(&pool, range, ahead, &make, |planned| {
             if progress.cancelled() {
                 return Err(SliceError::Cancelled);
@@ -123,12 +140,12 @@ impl<'a> Slicer<'a> {
             merged = merged.max(planned.merged);
             let number = planned.index + 1;
             warnings.tell(planned.warnings.iter().map(|w| format!("layer {number}: {w}")));
-            self.count(&planned, &mut report, &mut seconds);
-            timed(&mut seconds.write, || stream.push(planned))?;
+            spiral.push(planned, &mut write)?;
             done += 1;
             progress.advance(done, total);
             Ok(())
         })?;
+        spiral.finish(&mut write)?;
         let written = timed(&mut seconds.write, || stream.finish())?;
         if report.pieces == 0 {
             return Err(SliceError::NothingToPrint {
@@ -140,6 +157,7 @@ impl<'a> Slicer<'a> {
         warnings.tell(self.too_short(&report.cooling));
         warnings.tell(self.too_narrow(merged, palette.colors()));
         warnings.tell(report.purge.as_ref().and_then(unpurged));
+        warnings.tell(spiral.warning());
         report.warnings = warnings.into_vec();
         report.seconds = seconds;
         Ok(report)

@@ -50,8 +50,11 @@ impl Stream<'_> {
         let layer = self.layers.get(planned.index);
         let outline = planned.outline;
         let mut pieces = match &mut self.purge {
-            Some(purge) => purge.lay(planned.pieces, self.color, self.count, layer.height),
-            None => planned.pieces,
+            // A spiral cannot leave its wall for a tower.
+            Some(purge) if planned.rise.is_none() => {
+                purge.lay(planned.pieces, self.color, self.count, layer.height)
+            }
+            _ => planned.pieces,
         };
         if let (Some((options, inset)), Some(first)) = (&self.ways, pieces.first_mut()) {
             // Only now is known where the layer below ended.
@@ -59,7 +62,10 @@ impl Stream<'_> {
             find_ways(first, self.end, &outline.region, border, options, inset);
         }
         let index = u32::try_from(planned.index).unwrap_or(u32::MAX);
-        let plan = LayerPlan::new(index, layer.top, layer.height, pieces)?;
+        let mut plan = LayerPlan::new(index, layer.top, layer.height, pieces)?;
+        if let Some(rise) = planned.rise {
+            plan = plan.rising(rise)?;
+        }
         let pace = self.cooling.as_mut().and_then(|c| c.pace(&plan, self.color));
         self.ahead.set_pace(pace.unwrap_or(Pace::USUAL));
         if let Some(pace) = pace {

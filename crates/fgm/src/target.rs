@@ -1,9 +1,9 @@
 //! What the deposit is to be along each bead, where commands are chosen for it.
 
-use fgm_core::{MAX_MATERIALS, MaterialField, Mixture, Motion, Point2, Point3, Role};
+use fgm_core::{Climb, MAX_MATERIALS, MaterialField, Mixture, Motion, Point2, Point3, Role};
 use fgm_field::Design;
 
-use crate::{choice::Aim, purge::PurgeInto, settings::Settings};
+use crate::{choice::Aim, heights::Heights, purge::PurgeInto, settings::Settings};
 
 /// The most samples of a bead.
 const MOST: f64 = 1e5;
@@ -17,6 +17,7 @@ pub(crate) struct Target<'a> {
     /// Between samples, mm, at most.
     step: f64,
     at: Point2,
+    climb: Climb,
     points: Vec<Point3>,
     /// Fractions of the points, material by material.
     fractions: Vec<f64>,
@@ -32,6 +33,7 @@ impl<'a> Target<'a> {
             all,
             step: settings.contour.cell,
             at: Point2::ZERO,
+            climb: Climb::default(),
             points: Vec::new(),
             fractions: Vec::new(),
             mixtures: Vec::new(),
@@ -39,29 +41,34 @@ impl<'a> Target<'a> {
     }
 
     /// The mixtures along a bead of the part, each over an equal share of its length, in a layer
-    /// cut at the height `cut`; none for any other motion, nor where the design has none.
+    /// cut at the height `cut`; none for any other motion, nor where the design has none. On a layer
+    /// that rises they are those of as much below the cut as there is left to rise.
     pub(crate) fn along(&mut self, motion: &Motion, cut: f64) -> &[Mixture] {
         self.mixtures.clear();
+        let left = self.climb.left();
+        self.climb.follow(motion);
         match *motion {
             Motion::Travel { to } => self.at = to,
             Motion::Extrude { to, role, .. } => {
                 let from = std::mem::replace(&mut self.at, to);
                 let aimed = role == Role::PurgeInfill || (self.all && role.is_part());
-                if aimed && self.sample(from, to, cut).is_none() {
+                let heights = Heights { from: cut - left, to: cut - self.climb.left() };
+                if aimed && self.sample(from, to, heights).is_none() {
                     self.mixtures.clear();
                 }
             }
-            Motion::Layer { .. } | Motion::Color(_) | Motion::Command(_) => {}
+            Motion::Layer { .. } | Motion::Rise { .. } | Motion::Color(_) | Motion::Command(_) => {}
         }
         &self.mixtures
     }
 
     /// Takes the mixtures between two points; none where one of them is not valid.
-    fn sample(&mut self, from: Point2, to: Point2, cut: f64) -> Option<()> {
+    fn sample(&mut self, from: Point2, to: Point2, heights: Heights) -> Option<()> {
         let count = (from.distance(to) / self.step).ceil().clamp(1.0, MOST) as usize;
         let share = |i: usize| (i as f64 + 0.5) / count as f64;
         self.points.clear();
-        self.points.extend((0..count).map(|i| from.lerp(to, share(i)).extend(cut)));
+        let place = |i: usize| from.lerp(to, share(i)).extend(heights.at(share(i)));
+        self.points.extend((0..count).map(place));
         let materials = self.material.materials().min(MAX_MATERIALS);
         self.fractions.resize(materials * count, 0.0);
         for (material, out) in self.fractions.chunks_mut(count).take(materials).enumerate() {
@@ -98,6 +105,18 @@ mod tests {
             .collect();
         assert!(shares.len() == 2 && (shares[0] - 0.125).abs() < 1e-12, "{shares:?}");
         assert!((shares[1] - 0.175).abs() < 1e-12, "{shares:?}");
+        // A layer that rises: half of the way up, and then all of it.
+        let high = "fgrade([\"z/10\", \"1 - z/10\"], [\"a\", \"b\"]) { cube(20); }";
+        let high = fgm_design::parse_vcad(high, ".".as_ref(), &Default::default()).unwrap();
+        let mut rising = Target::of(&high.design, &settings).unwrap();
+        rising.along(&Motion::Layer { index: 1, z: 5.5, height: 1.0 }, 5.0);
+        rising.along(&Motion::Rise { from: 4.5, length: 2.0 }, 5.0);
+        rising.along(&Motion::Travel { to: Point2::ZERO }, 5.0);
+        for (x, wanted) in [(0.5, 0.4125), (1.0, 0.4375), (2.0, 0.475), (2.5, 0.5)] {
+            let along = rising.along(&bead(x, Role::OuterWall), 5.0);
+            let mean: f64 = along.iter().map(|mixture| mixture.fractions()[0]).sum();
+            assert!((mean / along.len() as f64 - wanted).abs() < 1e-12, "{x}: {along:?}");
+        }
         // Neither a tower's nor one that leaves the design's mixtures.
         assert!(target.along(&bead(3.0, Role::PurgeTower), 0.0).is_empty());
         assert!(target.along(&bead(6.0, Role::Infill), 0.0).is_empty());

@@ -145,6 +145,7 @@ fn settings(arguments: &SliceArguments) -> Result<Settings, Failure> {
     put(["layer", "height"], a.layer_height.map(Value::Float));
     put(["layer", "bead_width"], a.bead_width.map(Value::Float));
     put(["walls", "count"], count(a.walls));
+    put(["walls", "spiral"], a.spiral.then_some(Value::Boolean(true)));
     put(["infill", "density"], text(a.infill.as_ref().map(ToString::to_string)));
     put(["infill", "pattern"], text(a.infill_pattern.map(|p| p.to_string())));
     put(["skins", "top"], count(a.top));

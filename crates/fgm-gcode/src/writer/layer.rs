@@ -14,7 +14,8 @@ impl<W: io::Write> Writer<W> {
             });
         }
         let top = self.position.place_z(z)?;
-        self.position.layer_z = top;
+        (self.position.layer_z, self.position.bead_z) = (top, top);
+        self.position.climb.layer(z);
         self.position.max_z = self.position.max_z.max(top);
         self.bead.layer(height);
         self.pace = match self.paces.front() {
@@ -39,6 +40,13 @@ impl<W: io::Write> Writer<W> {
             self.bead.told_fan = self.options.fan.speed;
             self.dialect.fan(self.options.fan.speed, &mut self.text);
         }
+        Ok(())
+    }
+
+    /// The beads of the layer rise from a height.
+    pub(super) fn rise(&mut self, from: f64, length: f64) -> Result<(), GcodeError> {
+        self.position.bead_z = self.position.place_z(from)?;
+        self.position.climb.rise(from, length);
         Ok(())
     }
 

@@ -34,6 +34,8 @@ const EARLIEST: usize = 1024;
 /// is the true one to the last decimal. Beads shorter than the resolution are not written, and
 /// their filament goes to the next one.
 ///
+/// On a layer that rises every bead has its own height, which never falls.
+///
 /// Travels that follow each other are one: whether the filament is pulled back goes by their whole
 /// length.
 ///
@@ -200,6 +202,7 @@ impl<W: io::Write> Writer<W> {
             Step::Motion(Motion::Extrude { to, width, role }) => self.extrude(to, width, role),
             Step::Motion(Motion::Travel { .. }) => Ok(()),
             Step::Motion(Motion::Layer { index, z, height }) => self.layer(index, z, height),
+            Step::Motion(Motion::Rise { from, length }) => self.rise(from, length),
             Step::Motion(Motion::Command(color)) => self.command(color),
             Step::Motion(Motion::Color(color)) => self.deposit(color),
             Step::Notice(color) => self.notice(color),

@@ -118,6 +118,7 @@ impl<W: io::Write> Writer<W> {
         let (x, y) = (Fixed::round(to.x)?, Fixed::round(to.y)?);
         self.count_bead(length, role);
         self.position.at = Some(to);
+        self.position.climb.advance(length);
         if self.position.x == Some(x) && self.position.y == Some(y) {
             self.bead.owed += length * self.bead.units;
             return Ok(());
@@ -125,14 +126,27 @@ impl<W: io::Write> Writer<W> {
         self.settle(from)?;
         self.tags(width, role)?;
         let e = self.bead.feed(length)?;
-        self.go(Some((x, y)), None, Some(e), self.bead.feedrate);
-        let z = self.position.layer_z.value();
+        let below = self.position.bead_z;
+        let z = self.bead_z()?;
+        self.go(Some((x, y)), (z != below).then_some(z), Some(e), self.bead.feedrate);
+        let (below, z) = (below.value(), z.value());
         let extents = &mut self.summary.extents;
-        extents.min = extents.min.min(from.min(to).extend(z));
+        extents.min = extents.min.min(from.min(to).extend(below));
         extents.max = extents.max.max(from.max(to).extend(z));
         self.summary.moves += 1;
-        self.time.push(delta.extend(0.0), self.bead.speed, self.options.limits.acceleration);
+        let delta = delta.extend(z - below);
+        self.time.push(delta, self.bead.speed, self.options.limits.acceleration);
         Ok(())
+    }
+
+    /// The height that the bead rises to.
+    #[inline]
+    fn bead_z(&mut self) -> Result<Fixed<3>, GcodeError> {
+        let position = &mut self.position;
+        if position.bead_z != position.layer_z {
+            position.bead_z = position.place_z(position.climb.z())?;
+        }
+        Ok(position.bead_z)
     }
 
     fn count_bead(&mut self, length: f64, role: Role) {
@@ -260,7 +274,7 @@ impl<W: io::Write> Writer<W> {
         self.summary.moves += 1;
     }
 
-    /// Makes the nozzle ready for a bead from `from`: there, on the layer, with filament in it.
+    /// Makes the nozzle ready for a bead from `from`: there, at its height, with filament in it.
     #[inline]
     fn settle(&mut self, from: Point2) -> Result<(), GcodeError> {
         let position = &self.position;
@@ -272,8 +286,8 @@ impl<W: io::Write> Writer<W> {
             self.travel_to(from, x, y);
             self.position.at = to;
         }
-        if self.position.z != Some(self.position.layer_z) {
-            self.go_z(self.position.layer_z);
+        if self.position.z != Some(self.position.bead_z) {
+            self.go_z(self.position.bead_z);
         }
         let retracted = std::mem::take(self.heads.retracted());
         if retracted > 0.0 { self.pull(retracted) } else { Ok(()) }
@@ -304,9 +318,9 @@ impl<W: io::Write> Writer<W> {
         if swapped { usual.max(self.machine.tool_change.z_hop) } else { usual }
     }
 
-    /// Brings the nozzle at least `hop` above the layer.
+    /// Brings the nozzle at least `hop` above the beads.
     pub(super) fn lift(&mut self, hop: f64) -> Result<(), GcodeError> {
-        let z = Fixed::round(self.position.clamp_z(self.position.layer_z.value() + hop))?;
+        let z = Fixed::round(self.position.clamp_z(self.position.bead_z.value() + hop))?;
         if self.position.z.is_none_or(|now| now < z) {
             self.go_z(z);
         }

@@ -1,4 +1,4 @@
-use fgm_core::{Bounds3, Point2, Point3};
+use fgm_core::{Bounds3, Climb, Point2, Point3};
 
 use crate::{Fixed, GcodeError, lines};
 
@@ -17,6 +17,11 @@ pub(super) struct Position {
     pub(super) written: Option<Point2>,
     /// Height of the layer's beads, on the bed.
     pub(super) layer_z: Fixed<3>,
+    /// Height of the beads where the last one written ended, on the bed: below the layer's while
+    /// it rises.
+    pub(super) bead_z: Fixed<3>,
+    /// The same in the design's coordinates, not rounded.
+    pub(super) climb: Climb,
     /// The highest z written.
     pub(super) max_z: Fixed<3>,
     pub(super) feedrate: u32,
@@ -33,6 +38,8 @@ impl Position {
             z: None,
             written: None,
             layer_z: Fixed::default(),
+            bead_z: Fixed::default(),
+            climb: Climb::default(),
             max_z: Fixed::default(),
             feedrate: 0,
         }

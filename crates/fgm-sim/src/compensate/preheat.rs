@@ -246,7 +246,7 @@ impl Preheat {
                 let usual = self.machine.bead_speed(role, fed, state, self.layers <= 1);
                 (to, self.pace.speed(role, usual))
             }
-            Motion::Color(_) | Motion::Command(_) => return 0.0,
+            Motion::Rise { .. } | Motion::Color(_) | Motion::Command(_) => return 0.0,
         };
         let from = self.at.replace(to).unwrap_or(to);
         let seconds = from.distance(to) / speed;

@@ -1,5 +1,7 @@
 //! What the settings mean to the crates below: their options.
 
+use std::borrow::Cow;
+
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
 use fgm_toolpath::{BrimOptions, Monotonic, OrderOptions, Pattern, SkirtOptions, WayOptions};
@@ -8,12 +10,39 @@ use super::{AgainstSettings, BrimSettings, InfillSettings, Settings, TravelSetti
 use crate::{
     choice::{Aim, Strategy, Zipper},
     density::Density,
+    error::SliceError,
 };
 
 impl Settings {
     /// Thickness of the first layer, mm.
     pub fn first_height(&self) -> f64 {
         self.layer.first_height.unwrap_or(self.layer.height)
+    }
+
+    /// How many layers lie flat below a spiral wall, where `first`, from 0, is the one on the bed.
+    pub(crate) fn flat_layers(&self, first: usize) -> usize {
+        first + self.skins.bottom.max(1)
+    }
+
+    /// The settings with what a spiral wall stands for.
+    ///
+    /// # Errors
+    /// [`SliceError::SpiralStrategy`].
+    pub(crate) fn implied(&self) -> Result<Cow<'_, Self>, SliceError> {
+        if !self.walls.spiral {
+            return Ok(Cow::Borrowed(self));
+        }
+        if self.slice.strategy == Strategy::Against {
+            return Err(SliceError::SpiralStrategy);
+        }
+        let mut settings = self.clone();
+        (settings.walls.count, settings.skins.top) = (1, 0);
+        settings.infill = InfillSettings {
+            density: Density::Percent(0.0),
+            pattern: Pattern::Rectilinear,
+            ..settings.infill
+        };
+        Ok(Cow::Owned(settings))
     }
 
     /// What the deposit is to come near to: a zipper's colours interlock where the design has one

@@ -16,11 +16,12 @@ use crate::{
     covers::Covers,
     error::SliceError,
     extent,
-    job::Job,
+    job::{Job, PlannedLayer},
     layers::Layers,
     outlines::{OutlineWindow, Outliner},
     purge::{self, Demand, Needs, Purge},
     samples,
+    spiral::Spiral,
 };
 
 /// Layers whose pieces are made to choose the number of colours.
@@ -85,8 +86,13 @@ impl Slicer<'_> {
                     let job = self.job(outliner, &palette, layers, 1)?;
                     let (mut short, mut pieces) = (0, 0);
                     for index in spread(layers.count(), AUTO_LAYERS) {
-                        let planned = job.plan(index)?;
-                        (short, pieces) = (short + planned.short, pieces + planned.count);
+                        let mut spiral = Spiral::new(&job, None);
+                        let mut count = |planned: PlannedLayer| {
+                            (short, pieces) = (short + planned.short, pieces + planned.count);
+                            Ok(())
+                        };
+                        spiral.push(job.plan(index)?, &mut count)?;
+                        spiral.finish(&mut count)?;
                     }
                     Ok(short as f64 / pieces.max(1) as f64)
                 })?
@@ -160,7 +166,7 @@ impl Slicer<'_> {
         range: Range<usize>,
         place: (&Bounds3, Point3),
     ) -> Result<Option<Purge>, SliceError> {
-        if !purge::wanted(self.machine, self.settings) {
+        if !purge::wanted(self.machine, self.settings) || range.is_empty() {
             return Ok(None);
         }
         let needs = self.needs(colors::ids(palette).map(|c| palette.state(c)).collect());

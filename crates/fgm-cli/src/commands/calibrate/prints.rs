@@ -166,7 +166,7 @@ fn write(
                 bounds.min = bounds.min.min(to.extend(0.0));
                 bounds.max = bounds.max.max(to.extend(top));
             }
-            Motion::Color(_) | Motion::Command(_) => {}
+            Motion::Rise { .. } | Motion::Color(_) | Motion::Command(_) => {}
         }
     }
     let mut options = WriterOptions::of(machine);
