@@ -3,9 +3,9 @@
 
 use std::ops::Range;
 
-use fgm_core::{ColorId, Point2, Polygon};
+use fgm_core::{ColorId, Point2, Polygon, Ring};
 use fgm_gcode::{Machine, MachineKind};
-use fgm_toolpath::{Piece, Rise, Turn, WallOptions, fade, walls};
+use fgm_toolpath::{Inset, Piece, Rise, Turn, WallOptions, fade, walls};
 
 use crate::{
     colors,
@@ -151,7 +151,6 @@ impl<'j> Spiral<'j> {
             return Err(SliceError::SpiralGap { layer: layer.index + 1, z: layer.cut });
         }
         self.wind(&turn, &layer, &mut planned)?;
-        self.below = Some(SharedOutline::clone(&planned.outline));
         match self.last.replace((turn, planned)) {
             Some((_, before)) => emit(before),
             None => Ok(()),
@@ -202,6 +201,7 @@ impl<'j> Spiral<'j> {
             };
             // The middle of a bead of full height below the nozzle.
             let heights = Heights { from: layer.cut - layer.height, to: layer.cut };
+            let border = covered(job, &line);
             let mut pieces = sectioned::rising_wall(job, layer, line, heights)?;
             self.check_colors(&pieces, layer)?;
             let length = pieces.iter().map(Piece::length).sum();
@@ -211,7 +211,7 @@ impl<'j> Spiral<'j> {
             planned.count = pieces.len();
             planned.short = pieces.iter().filter(|p| colors::is_short(p, job.settings)).count();
             planned.faces = pieces.chunk_by(|a, b| a.color == b.color).count();
-            pieces = job.with_overhangs(pieces, self.below.as_deref());
+            pieces = job.with_overhangs(pieces, self.below.replace(border).as_deref());
             if self.last.is_none() {
                 pieces = fade(pieces, layer.height, 0.0, 1.0);
             }
@@ -240,4 +240,17 @@ impl<'j> Spiral<'j> {
         }
         Ok(())
     }
+}
+
+/// What lies inside the outer border of a turn's bead: what holds the next turn. The layer's own
+/// outline would hold it only where the turn has been led over to that.
+fn covered(job: &Job<'_>, line: &[Point2]) -> SharedOutline {
+    let mut ring = line.to_vec();
+    ring.dedup();
+    if ring.first() == ring.last() {
+        ring.pop();
+    }
+    let inside = [Polygon::simple(Ring::new(ring))];
+    let half = 0.5 * job.settings.layer.bead_width;
+    SharedOutline::new(Outline::new(job.inset.inset(&inside, -half), Vec::new()))
 }

@@ -266,6 +266,24 @@ fn what_no_spiral_can_be_is_told() {
     assert!(matches!(refused(CONE, "generic-mixing", &against), SliceError::SpiralStrategy));
 }
 
+/// A bead hangs over the turn below it by as much all the way round, not by what it has been led over
+/// to its own loop.
+#[test]
+fn a_leaning_wall_hangs_over_all_the_way_round() {
+    let lean = |by: f64| CONE.replace("0.4 z", &format!("{by} z")).replace("17", "24");
+    // A share of 0.15 and of 0.35 of the bead's width over air.
+    for (by, share) in [(0.3, 0.0), (0.7, 1.0)] {
+        let beads = deposit(&slice(&parse(&lean(by)), "generic-mixing", &spiral()).1).beads;
+        let length = |hangs: bool| -> f64 {
+            let turns = beads.iter().filter(|b| (6..49).contains(&b.layer));
+            let over = |b: &&Bead| !hangs || b.role == "Overhang perimeter";
+            turns.filter(over).map(Bead::length).sum()
+        };
+        let found = length(true) / length(false);
+        assert!((found - share).abs() < 0.01, "{by}: {found}");
+    }
+}
+
 /// Of a hollow part the outer wall is printed, and the user is told.
 #[test]
 fn holes_are_left_out() {
