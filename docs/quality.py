@@ -19,6 +19,7 @@ from pathlib import Path
 
 # Part, arguments, layers (all where left out).
 SLAB = ("slab", ["designs/slab.vcad", "--infill", "100"], None)
+BARE = ("slab, no towers", [*SLAB[1], "--purge", "off"], None)
 PLATE = ("plate", ["designs/plate-y.vcad", "--infill", "100"], "5..8")
 TUBE = ("tube", ["designs/tube.vcad", "--infill", "100"], "21..30")
 DOGBONE = ("dog bone", ["designs/dogbone.vcad", "--infill", "100"], "3..6")
@@ -108,6 +109,8 @@ def main():
     )
     print("|" + "---|" * 11)
     with tempfile.TemporaryDirectory() as work:
+        for strategy, colors in PALETTES[:2]:
+            measure(fgm, BARE, strategy, colors, Path(work))
         for part in parts:
             for strategy, colors in PALETTES:
                 measure(fgm, part, strategy, colors, Path(work))

@@ -15,24 +15,46 @@ const LEAST: f64 = 3.0;
 /// Steps towards the length that is cut off; each halves the error where lines run side by side.
 const STEPS: usize = 40;
 
+/// How lines turn round at a boundary between colours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Turns {
+    /// The layer's height, mm.
+    pub height: f64,
+    /// The greatest angle, radians, between lines and the boundary's normal at which they turn round
+    /// along the boundary. The steeper, the longer the turns, and the less of the area between them
+    /// is covered: at 60 degrees they are two spacings long.
+    pub steepest: f64,
+}
+
+impl Turns {
+    /// The longest travel that becomes a turn, in line spacings.
+    pub(crate) fn reach(&self) -> f64 {
+        (SLACK / self.steepest.cos().max(0.0)).min(FARTHEST)
+    }
+
+    /// Whether what has this role may turn round.
+    pub(crate) fn may_turn(&self, role: Role) -> bool {
+        role.is_part() && role != Role::OuterWall
+    }
+}
+
 /// Joins pieces that follow each other and end beside each other, as the lines of an infill do at
 /// a boundary between colours, so that the nozzle turns round there instead of travelling.
 ///
 /// Both are cut back by half the length of the bead that joins them: the volume stays, and the beads
 /// that turn on either side of the boundary come to lie a line's spacing apart, like those of walls.
 /// Only pieces of one colour, role and width are joined, not outer walls, and not what would run
-/// on in the same direction. `height` is the layer's, mm; `steepest` the greatest angle, in radians,
-/// between the lines and the boundary's normal. The steeper, the longer the turns, and the less of
-/// the area between them is covered: at 60 degrees they are two spacings long.
-pub fn join_ends(pieces: &mut Vec<Piece>, height: f64, steepest: f64) {
-    let reach = (SLACK / steepest.cos().max(0.0)).min(FARTHEST);
+/// on in the same direction. Where the boundary is steeper than that, [`order_with`](crate::order_with)
+/// has brought ends to one level, if it was told of the turns ([`OrderOptions::turns`](crate::OrderOptions::turns)).
+pub fn join_ends(pieces: &mut Vec<Piece>, turns: &Turns) {
     pieces.dedup_by(|piece, into| {
         let alike =
             piece.role == into.role && piece.width == into.width && piece.color == into.color;
         alike
-            && piece.role.is_part()
-            && piece.role != Role::OuterWall
-            && join(into, piece, reach * bead::spacing(into.width, height))
+            && turns.may_turn(piece.role)
+            && join(into, piece, turns.reach() * bead::spacing(into.width, turns.height))
     });
 }
 
@@ -138,7 +160,7 @@ mod tests {
     }
 
     fn joined(mut pieces: Vec<Piece>) -> Vec<Vec<(f64, f64)>> {
-        join_ends(&mut pieces, 0.2, FRAC_PI_3);
+        join_ends(&mut pieces, &Turns { height: 0.2, steepest: FRAC_PI_3 });
         let round = |v: f64| (v * 1e6).round() / 1e6;
         let points = |p: &Piece| p.points.iter().map(|q| (round(q.x), round(q.y))).collect();
         pieces.iter().map(points).collect()
@@ -184,7 +206,7 @@ mod tests {
             };
             let mut pieces: Vec<Piece> = lines.iter().enumerate().map(line).collect();
             let before: f64 = pieces.iter().map(Piece::length).sum();
-            join_ends(&mut pieces, 0.2, steepest);
+            join_ends(&mut pieces, &Turns { height: 0.2, steepest });
             let after: f64 = pieces.iter().map(Piece::length).sum();
             prop_assert!((after / before - 1.0).abs() < 1e-7, "{before} to {after}");
         }

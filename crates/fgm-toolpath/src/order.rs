@@ -1,9 +1,12 @@
-use fgm_core::{ColorId, Point2, Role};
+use fgm_core::{Point2, Role};
 
 use crate::{
-    Piece, order_monotone,
+    Piece, level_ends,
+    order_color::ColorOrder,
+    order_monotone,
     order_near::Near,
-    order_options::{OrderOptions, RoleOrder},
+    order_options::{Monotonic, OrderOptions, RoleOrder},
+    order_runs,
     order_seam::{Seam, scatter, seam_of},
     travel::{Leg, improve},
 };
@@ -14,14 +17,19 @@ pub(crate) const MEETS: f64 = 1e-6;
 /// Puts the pieces of one layer into printing order with [`OrderOptions::default`].
 ///
 /// See [`order_with`].
-pub fn order(pieces: Vec<Piece>, colors: &[ColorId], start: Point2) -> Vec<Piece> {
+pub fn order<'a>(
+    pieces: Vec<Piece>,
+    colors: impl Into<ColorOrder<'a>>,
+    start: Point2,
+) -> Vec<Piece> {
     order_with(pieces, colors, start, &OrderOptions::default())
 }
 
 /// Puts the pieces of one layer into printing order.
 ///
-/// Colour follows colour as in `colors`; colours that are not in there come last, by number.
-/// Inside a colour the next piece is the nearest one: an open piece may be printed from either
+/// Colour follows colour as in `colors`; colours that are not in there come last, by number. With
+/// [`ColorOrder::change`] pieces near each other then move to where travels and changes of colour
+/// together cost least, unless an order of roles or lines is asked for. Inside a colour the next piece is the nearest one: an open piece may be printed from either
 /// end, a loop (a piece whose last point is its first) from any vertex. Pieces of one colour that
 /// meet end to end are printed without a travel between them. Then the order is changed where that
 /// shortens the travels. `start` is where the nozzle is before the first piece, mm.
@@ -32,40 +40,43 @@ pub fn order(pieces: Vec<Piece>, colors: &[ColorId], start: Point2) -> Vec<Piece
 ///
 /// Every piece is kept, once, or parted so. Pieces with points that are not finite come last in their colour.
 /// The same pieces in the same order give the same answer.
-pub fn order_with(
+pub fn order_with<'a>(
     mut pieces: Vec<Piece>,
-    colors: &[ColorId],
+    colors: impl Into<ColorOrder<'a>>,
     start: Point2,
     options: &OrderOptions,
 ) -> Vec<Piece> {
-    let used = pieces.iter().map(|p| p.color.index() + 1).max().unwrap_or_default();
-    let mut rank = vec![usize::MAX; used];
-    for (i, color) in colors.iter().enumerate().rev() {
-        if let Some(rank) = rank.get_mut(color.index()) {
-            *rank = i;
-        }
-    }
+    let colors = colors.into();
+    let ranks = colors.ranks(pieces.iter().map(|p| p.color));
     if options.seam == Seam::Random {
         scatter(&mut pieces, options.layer);
     }
-    let key = |p: &Piece| (rank[p.color.index()], p.color, class(p.role, options));
-    pieces.sort_by_key(key);
-
+    pieces.sort_by_key(|p| (ranks[p.color.index()], p.color, class(p.role, options)));
+    let key = |p: &Piece| (p.color, class(p.role, options));
     let mut out = Vec::with_capacity(pieces.len());
-    let mut at = start;
+    let (mut at, total) = (start, pieces.len());
+    let ends = options.turns.map(|turns| (turns, level_ends::Ends::of(&pieces)));
     let mut rest = pieces.as_mut_slice();
-    while let Some(first) = rest.first() {
-        let same = key(first);
-        let count = rest.partition_point(|p| key(p) <= same);
+    while let Some(piece) = rest.first() {
+        let first = key(piece);
+        let count = rest.iter().take_while(|p| key(p) == first).count();
         let (group, others) = rest.split_at_mut(count);
+        let printed = out.len();
         at = if options.monotonic.takes(group[0].role) {
             order_monotone::order(group, at, options.direction, &mut out)
         } else {
             order_group(group, at, options, &mut out)
         };
+        if let Some((turns, ends)) = &ends {
+            ends.level(&mut out[printed..], others, total - others.len(), turns);
+        }
         rest = others;
     }
-    out
+    let free = options.roles == RoleOrder::Any && options.monotonic == Monotonic::Off;
+    match colors.change {
+        Some(change) if free => order_runs::by_place(out, start, change),
+        _ => out,
+    }
 }
 
 fn class(role: Role, options: &OrderOptions) -> u8 {

@@ -2,7 +2,7 @@
 
 use fgm_core::{Point2, Role};
 
-use crate::order_seam::Seam;
+use crate::{join_ends::Turns, order_seam::Seam};
 
 /// How the pieces of a layer are put in order.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,10 @@ pub struct OrderOptions {
     pub monotonic: Monotonic,
     /// Direction of the skins' lines, radians from +x.
     pub direction: f64,
+    /// How lines will turn round at boundaries between colours ([`join_ends`](crate::join_ends)):
+    /// where these are too steep, the ends of neighbours are brought to one level, so that they can;
+    /// the boundary moves by up to half a spacing. Where none, every line ends where it ends.
+    pub turns: Option<Turns>,
 }
 
 impl Default for OrderOptions {
@@ -36,6 +40,7 @@ impl Default for OrderOptions {
             improve: 32,
             monotonic: Monotonic::Off,
             direction: 0.0,
+            turns: None,
         }
     }
 }

@@ -4,8 +4,13 @@ mod sequence;
 
 use fgm_core::{ColorId, Point2};
 
-use crate::{Piece, order::MEETS};
-use sequence::sequence;
+use crate::{
+    Piece,
+    order::MEETS,
+    order_color::{Change, ColorOrder},
+    order_walk::{Door, Part, Stop, walk},
+};
+use sequence::{sequence, stops};
 
 /// Passes over a layer in which every route's place to begin is chosen anew, among all its vertices.
 const PASSES: usize = 2;
@@ -16,18 +21,31 @@ const MOST_SWAPS: usize = 12;
 /// Puts the routes of one layer into printing order.
 ///
 /// A route is a round of pieces of one colour, as [`route`](crate::route) gives them: it may be
-/// begun at any vertex, and in either direction. Colour follows colour as in `colors`; others come
-/// last, by number. Inside a colour, and from one to the next, routes follow in the sequence of least
+/// begun at any vertex, and in either direction. Colour follows colour as in `colors`, or, with
+/// [`ColorOrder::change`], route follows route as travels and changes of colour together cost least.
+/// Inside a colour, and from one to the next, routes follow in the sequence of least
 /// travels, each begun where the travels to it and on from it are shortest; where it has a travel of
 /// its own, that may be left out. `start` is where the nozzle is before the first piece, mm.
 ///
 /// Every piece is kept, though one may be cut in two where its route begins. Empty pieces are
 /// dropped. The same routes in the same order give the same answer.
-pub fn order_routes(routes: Vec<Vec<Piece>>, colors: &[ColorId], start: Point2) -> Vec<Piece> {
+pub fn order_routes<'a>(
+    routes: Vec<Vec<Piece>>,
+    colors: impl Into<ColorOrder<'a>>,
+    start: Point2,
+) -> Vec<Piece> {
+    let colors = colors.into();
     let mut rounds: Vec<Round> = routes.into_iter().filter_map(Round::new).collect();
-    let rank = |color: ColorId| colors.iter().position(|&c| c == color).unwrap_or(colors.len());
-    rounds.sort_by_cached_key(|round| (rank(round.color()), round.color()));
-    let (mut rounds, mut gates) = sequence(rounds, start);
+    let ranks = colors.ranks(rounds.iter().map(Round::color));
+    rounds.sort_by_key(|round| (ranks[round.color().index()], round.color()));
+    let stops: Vec<Vec<Gate>> = rounds.iter().map(stops).collect();
+    let mut tour = sequence(&rounds, &stops, start);
+    if let Some(change) = colors.change {
+        go_by_place(&rounds, &stops, &mut tour, start, change);
+    }
+    let mut gates: Vec<Gate> = tour.iter().map(|&(i, gate)| stops[i][gate as usize]).collect();
+    let mut rounds: Vec<Option<Round>> = rounds.into_iter().map(Some).collect();
+    let mut rounds: Vec<Round> = tour.iter().filter_map(|&(i, _)| rounds[i].take()).collect();
     for _ in 0..PASSES {
         swap(&mut rounds, &mut gates, start);
         choose(&rounds, &mut gates, start);
@@ -38,6 +56,29 @@ pub fn order_routes(routes: Vec<Vec<Piece>>, colors: &[ColorId], start: Point2) 
         round.begun_at(gate.begin, &mut out);
     }
     out
+}
+
+/// Comes back to a colour where that saves more travel than the changes cost.
+fn go_by_place(
+    rounds: &[Round],
+    stops: &[Vec<Gate>],
+    tour: &mut [Stop],
+    start: Point2,
+    change: Change<'_>,
+) {
+    let doors = |gates: &Vec<Gate>| {
+        let back = |gate: &Gate| gates.iter().position(|other| other.begin == gate.turned().begin);
+        let door = |(gate, i): (&Gate, u32)| Door {
+            enter: gate.enter,
+            exit: gate.exit,
+            cost: gate.cost,
+            back: back(gate).map_or(i, |back| back as u32),
+        };
+        gates.iter().zip(0..).map(door).collect()
+    };
+    let part = |(round, gates): (&Round, _)| Part { color: round.color(), doors: doors(gates) };
+    let parts: Vec<Part> = rounds.iter().zip(stops).map(part).collect();
+    walk(&parts, tour, start, change);
 }
 
 /// A route with what is asked about it.

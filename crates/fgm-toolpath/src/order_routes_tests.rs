@@ -43,6 +43,23 @@ fn colours_follow_as_asked_and_routes_as_they_lie() {
 }
 
 #[test]
+fn a_colour_is_come_back_to_where_changes_cost_less_than_the_way() {
+    let heap = |x: f64| (0..3).map(move |color| square(x, 2.0 * f64::from(color), color));
+    let routes: Vec<_> = heap(0.0).chain(heap(90.0)).collect();
+    let sequence = [0, 1, 2].map(ColorId);
+    let colors = |costs: f64| {
+        let change = move |a: ColorId, b: ColorId| costs * f64::from(a.0.abs_diff(b.0));
+        let order = ColorOrder { sequence: &sequence, change: Some(&change) };
+        let out = order_routes(routes.clone(), order, Point2::ZERO);
+        (out.iter().map(|p| p.color.0).collect::<Vec<_>>(), travel(&out, Point2::ZERO))
+    };
+    let ((near, way), (one_by_one, long)) = (colors(5.0), colors(1e3));
+    assert_eq!(near.windows(2).filter(|w| w[0] == w[1]).count(), 2, "{near:?}");
+    assert_eq!(one_by_one, [0, 0, 1, 1, 2, 2]);
+    assert!(way < 200.0 && long > 260.0, "{way}, {long}");
+}
+
+#[test]
 fn a_far_route_does_not_cost_a_way_back() {
     // From the second colour's two places the third is at one only: end there.
     let routes = vec![

@@ -1,5 +1,6 @@
 use super::*;
 use crate::begin_at_seams;
+use fgm_core::ColorId;
 use proptest::prelude::*;
 
 fn piece(points: &[(f64, f64)], color: u16, role: Role) -> Piece {

@@ -140,11 +140,11 @@ fn bridge_routes(
         for piece in pieces {
             colors.entry(piece.color).or_default().push(piece);
         }
-        let order = settings.order_options(layer.index, Point2::ZERO);
+        let order = settings.order_options(layer, Point2::ZERO);
         routes.extend(colors.into_iter().map(|(color, pieces)| {
             let start = pieces.first().and_then(|p| p.points.first().copied()).unwrap_or_default();
             let mut route = order_with(pieces, &[color], start, &order);
-            join_ends(&mut route, layer.height, settings.section.turns.to_radians());
+            join_ends(&mut route, &settings.turns(layer.height));
             route
         }));
     }

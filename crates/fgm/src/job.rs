@@ -5,8 +5,8 @@ use fgm_core::{ColorId, Point2, Polygon, Role};
 use fgm_field::Design;
 use fgm_palette::Palette;
 use fgm_toolpath::{
-    ClipperInset, OrderOptions, Piece, Rise, Support, begin_at_seams, brim, find_ways, join_ends,
-    mark_overhangs, order_routes, order_with, skirt,
+    Change, ClipperInset, ColorOrder, OrderOptions, Piece, Rise, Support, begin_at_seams, brim,
+    find_ways, join_ends, mark_overhangs, order_routes, order_with, skirt,
 };
 
 use rayon::ThreadPool;
@@ -49,6 +49,9 @@ pub(crate) struct Job<'a> {
     pub(crate) covers: Option<Covers>,
     /// What changes of colour need, where hidden filling is to take it.
     pub(crate) hidden_purges: Option<Needs>,
+    /// What a whole change of mixture is worth, mm of travel; infinite where a layer comes back to no
+    /// colour.
+    pub(crate) change: f64,
     /// The layer that lies on the bed, from 0.
     pub(crate) first: usize,
 }
@@ -66,7 +69,7 @@ pub(crate) struct Seams {
 pub(crate) struct PlannedLayer {
     /// From 0 at the part's bottom.
     pub(crate) index: usize,
-    /// In printing order, colour by colour.
+    /// In printing order.
     pub(crate) pieces: Vec<Piece>,
     /// The loop of a spiral, whose pieces are made in the order of the layers.
     pub(crate) wall: Option<Wall>,
@@ -131,6 +134,9 @@ impl Job<'_> {
         let region = drawn.as_ref().unwrap_or(&outline.region).as_slice();
         let below = timed(&mut seconds.contour, || self.below(layer))?;
         let start = region.first().map_or(Point2::ZERO, |polygon| polygon.bounds().min);
+        let change = |a: ColorId, b: ColorId| {
+            self.change * self.palette.state(a).distance(&self.palette.state(b))
+        };
         let (mut merged, mut seams) = (1, Seams::default());
         let (pieces, faces) = match self.settings.slice.strategy {
             Strategy::Sectioned => {
@@ -141,16 +147,17 @@ impl Job<'_> {
                 let corner = self.design.bounds.max.truncate();
                 let options = OrderOptions {
                     direction: sectioned::skin_direction(self, layer),
-                    ..self.settings.order_options(layer.index, corner)
+                    ..self.settings.order_options(layer, corner)
                 };
                 let order = || {
+                    let order = self.color_order(&colors, &change);
                     let mut pieces = match &self.hidden_purges {
                         Some(needs) => {
                             hidden_first(pieces, &colors, start, &options, needs, layer.height)
                         }
-                        None => order_with(pieces, &colors, start, &options),
+                        None => order_with(pieces, order, start, &options),
                     };
-                    join_ends(&mut pieces, layer.height, self.settings.section.turns.to_radians());
+                    join_ends(&mut pieces, &self.settings.turns(layer.height));
                     pieces
                 };
                 (timed(&mut seconds.toolpath, order), faces)
@@ -160,9 +167,10 @@ impl Job<'_> {
                 merged = filled.merged;
                 let colors = self.colors(filled.routes.iter().flatten(), layer);
                 let corner = self.design.bounds.max.truncate();
-                let options = self.settings.order_options(layer.index, corner);
+                let options = self.settings.order_options(layer, corner);
                 let order = || {
-                    let mut pieces = order_routes(filled.routes, &colors, start);
+                    let order = self.color_order(&colors, &change);
+                    let mut pieces = order_routes(filled.routes, order, start);
                     begin_at_seams(&mut pieces, &options);
                     pieces
                 };
@@ -231,6 +239,11 @@ impl Job<'_> {
             .map(|(id, _)| id)
             .collect();
         self.palette.order_of(&used, layer.index)
+    }
+
+    /// One colour after the other, or as changes and travels cost least.
+    fn color_order<'c>(&self, colors: &'c [ColorId], change: Change<'c>) -> ColorOrder<'c> {
+        ColorOrder { sequence: colors, change: self.change.is_finite().then_some(change) }
     }
 
     /// On the first layer, skirt and brim around the part in the colour that comes first.

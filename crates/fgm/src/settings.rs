@@ -68,7 +68,7 @@ settings! {
         by: SectionBy = SectionBy::Field, "\"field\"", "field | faces";
         #[doc = "Shorter pieces are shared out between their neighbours on the path, where no place is then off by more than a band; 0 for none."]
         shortest: f64 = 3.0, "3", "mm";
-        #[doc = "Steepest boundary between colours at which the lines of a filling turn round instead of travelling, by the angle between them and its normal; at more, turns leave gaps."]
+        #[doc = "Steepest boundary between colours at which the lines of a filling turn round along it instead of travelling, by the angle between them and its normal. At more, turns along it would leave gaps: two lines that end one after the other there are both ended half-way, and turn straight."]
         turns: f64 = 60.0, "60", "degrees";
     }
     #[doc = "Walls, strategy sectioned."]
@@ -120,7 +120,7 @@ settings! {
         #[doc = "Widest bead, where the middle of a face needs one."]
         max_width: Option<f64> = None, "1.6 bead widths", "mm";
     }
-    #[doc = "The order of printing inside a colour, strategy sectioned."]
+    #[doc = "The order of printing."]
     order: OrderSettings {
         #[doc = "Which walls come first; any takes what is nearest."]
         walls: RoleOrder = RoleOrder::Any, "\"any\"", "any | outer-first | inner-first";
@@ -128,6 +128,8 @@ settings! {
         seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest | hidden";
         #[doc = "The point of the aligned seam, x and y in the design's coordinates."]
         seam_point: Option<[f64; 2]> = None, "the design's corner of greatest x and y", "[mm, mm]";
+        #[doc = "What a change from one pure material to another is worth, in travel, where a machine mixes and nothing is purged: it then comes back to a colour for a part that lies near, and a change by a tenth has to save a tenth of this. 1000000 prints each colour once a layer."]
+        change: f64 = 400.0, "400", "mm";
         #[doc = "How many changes of the order are tried to shorten the travels, for each piece."]
         effort: u32 = 32, "32", "count";
     }

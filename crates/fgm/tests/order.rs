@@ -91,6 +91,40 @@ fn islands_are_one_plate() {
     }
 }
 
+/// Two blocks far from each other: a machine that mixes does not go back and forth for every colour,
+/// unless it is asked to, or purges, or a change takes time.
+#[test]
+fn far_parts_are_printed_one_after_the_other() {
+    let source = r#"fgrade(["abs(x)/20 - 2.25", "3.25 - abs(x)/20"], ["a", "b"]) {
+        translate(-55, 0, 1) { rectprism(20, 10, 2); }
+        translate(55, 0, 1) { rectprism(20, 10, 2); }
+    }"#;
+    let crossings = |printer: &str, strategy, purge, change| {
+        let mut settings = settings(strategy, 4);
+        settings.purge.enabled = Some(purge);
+        settings.order.change = change;
+        (settings.lead.volume, settings.compensation.enabled) = (Some(0.0), Some(false));
+        settings.slice.last_layer = Some(2);
+        let gcode = slice(&parse(source), printer, &settings).1;
+        let beads = deposit(&gcode).beads;
+        assert!(beads.iter().any(|b| b.from.x < -40.0) && beads.iter().any(|b| b.from.x > 40.0));
+        let part = beads.iter().filter(|b| !b.is_tower()).collect::<Vec<_>>();
+        part.windows(2).filter(|w| w[0].from.x * w[1].from.x < 0.0).count()
+    };
+    for strategy in [Strategy::Sectioned, Strategy::Against] {
+        let mixing = |purge, change| crossings("generic-mixing", strategy, purge, change);
+        // There and back, twice.
+        assert!(mixing(false, 50.0) <= 4, "{strategy}: {}", mixing(false, 50.0));
+        assert!(mixing(false, 1e6) >= 7, "{strategy}: {}", mixing(false, 1e6));
+    }
+    let purging = crossings("generic-mixing", Strategy::Sectioned, true, 50.0);
+    assert!(purging >= 7, "{purging}");
+    for printer in ["prusa-mk4s-lw-pla", "prusa-xl-5t"] {
+        let count = crossings(printer, Strategy::Against, false, 50.0);
+        assert!(count >= 7, "{printer}: {count}");
+    }
+}
+
 /// How near to the z axis travels come inside layers, mm, and how many there are.
 fn nearest_travel(gcode: &str) -> (f64, usize) {
     let offset = gcode.lines().find_map(|l| l.strip_prefix("; design_offset = ")).unwrap();

@@ -6,6 +6,7 @@ use std::ops::Range;
 use fgm_core::Point2;
 
 use super::{Begin, Gate, Round};
+use crate::order_walk::Stop;
 
 /// Routes of a colour of which every sequence is gone through; more are taken nearest first.
 const MOST_EXACT: usize = 5;
@@ -19,8 +20,8 @@ const MOST_TRAVELS: usize = 4;
 /// A route is left where it is begun, but for travels of its own. So the state of the search is the
 /// set of routes printed, the last of them and where it was left (Held and Karp, 1962, with places):
 /// colour by colour, the best way to every place a colour may end at.
-pub(super) fn sequence(rounds: Vec<Round>, start: Point2) -> (Vec<Round>, Vec<Gate>) {
-    let mut search = Search::new(&rounds, start);
+pub(super) fn sequence(rounds: &[Round], stops: &[Vec<Gate>], start: Point2) -> Vec<Stop> {
+    let mut search = Search::new(stops, start);
     let mut ends: Vec<Nodes> = std::iter::once(0..1).collect();
     let mut first = 0;
     while first < rounds.len() {
@@ -34,13 +35,11 @@ pub(super) fn sequence(rounds: Vec<Round>, start: Point2) -> (Vec<Round>, Vec<Ga
         };
         first += count;
     }
-    let order = search.best(&ends);
-    let mut rounds: Vec<Option<Round>> = rounds.into_iter().map(Some).collect();
-    order.into_iter().filter_map(|(i, gate)| Some((rounds[i].take()?, gate))).unzip()
+    search.best(&ends)
 }
 
 /// Where a route may be begun and left.
-fn stops(round: &Round) -> Vec<Gate> {
+pub(super) fn stops(round: &Round) -> Vec<Gate> {
     let count: usize = round.pieces.iter().map(|piece| piece.points.len()).sum();
     let points = round.pieces.iter().enumerate().flat_map(|(i, piece)| {
         piece.points.iter().enumerate().map(move |(j, &p)| (Begin::Vertex(i, j), p))
@@ -65,8 +64,8 @@ struct Node {
     stop: u32,
 }
 
-struct Search {
-    stops: Vec<Vec<Gate>>,
+struct Search<'a> {
+    stops: &'a [Vec<Gate>],
     /// The first stands for the beginning.
     nodes: Vec<Node>,
 }
@@ -74,16 +73,16 @@ struct Search {
 /// The nodes of all stops of a route.
 type Nodes = Range<usize>;
 
-impl Search {
-    fn new(rounds: &[Round], start: Point2) -> Self {
+impl<'a> Search<'a> {
+    fn new(stops: &'a [Vec<Gate>], start: Point2) -> Self {
         let begin = Node { cost: 0.0, exit: start, before: 0, round: u32::MAX, stop: 0 };
-        Self { stops: rounds.iter().map(stops).collect(), nodes: vec![begin] }
+        Self { stops, nodes: vec![begin] }
     }
 
     /// Prints a route after the best of the nodes `before`, at each of its stops.
-    fn extend<'a>(
+    fn extend<'n>(
         &mut self,
-        before: &(impl Iterator<Item = &'a Nodes> + Clone),
+        before: &(impl Iterator<Item = &'n Nodes> + Clone),
         round: usize,
     ) -> Nodes {
         let first = self.nodes.len();
@@ -154,15 +153,14 @@ impl Search {
     }
 
     /// The routes and where they are begun, on the best way to one of the nodes.
-    fn best(&self, ends: &[Nodes]) -> Vec<(usize, Gate)> {
+    fn best(&self, ends: &[Nodes]) -> Vec<Stop> {
         let nodes = ends.iter().cloned().flatten();
         let cost = |i: &usize| self.nodes[*i].cost;
         let mut at = nodes.min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(0);
         let mut back = Vec::with_capacity(self.stops.len());
         while at != 0 {
             let node = self.nodes[at];
-            let round = node.round as usize;
-            back.push((round, self.stops[round][node.stop as usize]));
+            back.push((node.round as usize, node.stop));
             at = node.before as usize;
         }
         back.reverse();

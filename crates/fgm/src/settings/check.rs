@@ -45,6 +45,7 @@ impl Settings {
             within("infill.angles", *angle, -3600.0..=3600.0, "an angle in degrees")?;
         }
         within("infill.reach", self.infill.reach, 0.0..=200.0, "0 to 200 mm")?;
+        within("order.change", self.order.change, 0.0..=1e6, "0 to 1000000 mm")?;
         let effort = f64::from(self.order.effort);
         within("order.effort", effort, 0.0..=1e6, "0 to 1000000")?;
         for x in self.order.seam_point.into_iter().flatten() {

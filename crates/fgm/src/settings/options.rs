@@ -4,13 +4,16 @@ use std::borrow::Cow;
 
 use fgm_contour::ContourOptions;
 use fgm_core::Point2;
-use fgm_toolpath::{BrimOptions, Monotonic, OrderOptions, Pattern, SkirtOptions, WayOptions};
+use fgm_toolpath::{
+    BrimOptions, Monotonic, OrderOptions, Pattern, SkirtOptions, Turns, WayOptions,
+};
 
 use super::{AgainstSettings, BrimSettings, InfillSettings, Settings, TravelSettings};
 use crate::{
     choice::{Aim, Strategy, Zipper},
     density::Density,
     error::SliceError,
+    layers::Layer,
 };
 
 impl Settings {
@@ -85,14 +88,18 @@ impl Settings {
         (0.5 * self.contour.resolution).clamp(1e-4, 0.1)
     }
 
-    /// How the pieces of a layer, from 0, are put in order. `corner` is the design's of greatest x
-    /// and y.
-    pub(crate) fn order_options(&self, layer: usize, corner: Point2) -> OrderOptions {
+    /// How lines turn round at boundaries between colours in a layer of a height, mm.
+    pub(crate) fn turns(&self, height: f64) -> Turns {
+        Turns { height, steepest: self.section.turns.to_radians() }
+    }
+
+    /// How the pieces of a layer are put in order. `corner` is the design's of greatest x and y.
+    pub(crate) fn order_options(&self, layer: &Layer, corner: Point2) -> OrderOptions {
         OrderOptions {
             roles: self.order.walls,
             seam: self.order.seam,
             seam_point: self.order.seam_point.map_or(corner, Point2::from),
-            layer: layer as u32,
+            layer: layer.index as u32,
             improve: self.order.effort,
             monotonic: match self.infill.pattern {
                 // Loops have no direction of advance.
@@ -102,6 +109,7 @@ impl Settings {
                 _ => self.skins.monotonic,
             },
             direction: 0.0,
+            turns: (self.section.turns > 0.0).then(|| self.turns(layer.height)),
         }
     }
 

@@ -24,6 +24,8 @@ use crate::{
     spiral::Spiral,
 };
 
+/// As `order.change`: each colour is printed once a layer.
+const NEVER: f64 = 1e6;
 /// Layers whose pieces are made to choose the number of colours.
 const AUTO_LAYERS: usize = 5;
 
@@ -135,8 +137,19 @@ impl Slicer<'_> {
             covers,
             hidden_purges: purge::hides(self.machine, self.settings)
                 .then(|| self.needs(colors::ids(palette).map(|c| palette.state(c)).collect())),
+            change: self.change_of_color(),
             first: 0,
         })
+    }
+
+    /// What a whole change of mixture is worth, mm of travel: the more heads and temperatures change
+    /// and the more is purged, the better is one colour at a time.
+    fn change_of_color(&self) -> f64 {
+        let settings = self.settings;
+        let free = self.machine.kind == MachineKind::Mixing
+            && !purge::wanted(self.machine, settings)
+            && settings.order.change < NEVER;
+        if free { settings.order.change } else { f64::INFINITY }
     }
 
     /// The palette's bands, with the zipper of strategy 1.
