@@ -89,14 +89,22 @@ pub(crate) fn cut(
     sections: &dyn Sectioner<Band>,
     pieces: &mut Vec<Piece>,
 ) {
-    cut_at(job, layer, Heights::flat(layer.cut), paths, sections, pieces);
+    let settings = &job.settings.section;
+    let is_wall = |path: &Path| matches!(path.role, Role::OuterWall | Role::InnerWall);
+    for paths in paths.chunk_by(|a, b| is_wall(a) == is_wall(b)) {
+        let wall = paths.first().is_some_and(is_wall);
+        let shortest = if wall { settings.shortest_wall } else { settings.shortest };
+        cut_at(job, layer, Heights::flat(layer.cut), shortest, paths, sections, pieces);
+    }
 }
 
-/// The same, where the material is looked up at these heights.
+/// The same, where the material is looked up at these heights, and what is shorter than so many mm
+/// is shared out.
 fn cut_at(
     job: &Job<'_>,
     layer: &Layer,
     heights: Heights,
+    shortest: f64,
     paths: &[Path],
     sections: &dyn Sectioner<Band>,
     pieces: &mut Vec<Piece>,
@@ -104,7 +112,6 @@ fn cut_at(
     // The layer's index makes a zipper's teeth alternate upwards, too.
     let options = SectionOptions { shift: layer.index as u32, ..SectionOptions::default() };
     let (material, palette) = (job.design.fractions.as_ref(), job.palette);
-    let shortest = job.settings.section.shortest;
     if shortest > 0.0 {
         let sections = ShortSections { sections, material, palette, heights, shortest };
         section(paths, &sections, &options, pieces);
@@ -131,7 +138,9 @@ pub(crate) fn rising_wall(
     let ContourOptions { cell, root_tolerance, .. } = job.isolines;
     let sections = RisingSections::new(job.bands, heights, cell, root_tolerance);
     let mut pieces = Vec::new();
-    cut_at(job, layer, heights, &[path], &sections, &mut pieces);
+    // No travel parts its pieces, so that short ones do no harm.
+    let shortest = job.settings.section.shortest;
+    cut_at(job, layer, heights, shortest, &[path], &sections, &mut pieces);
     sections.finish()?;
     Ok(pieces)
 }

@@ -34,6 +34,8 @@ impl Settings {
         within("layer.first_height", self.first_height(), 0.0..=width, "at most layer.bead_width")?;
         within("contour.cell", self.contour.cell, 0.01..=100.0, "0.01 to 100 mm")?;
         within("contour.tolerance", self.contour.tolerance, 0.0..=10.0, "0 to 10 mm")?;
+        let wall = self.section.shortest_wall;
+        within("section.shortest_wall", wall, 0.0..=1000.0, "0 to 1000 mm")?;
         within("section.shortest", self.section.shortest, 0.0..=1000.0, "0 to 1000 mm")?;
         within("section.turns", self.section.turns, 0.0..=90.0, "0 to 90 degrees")?;
         within("contour.resolution", self.contour.resolution, 0.0..=10.0, "0 to 10 mm")?;
