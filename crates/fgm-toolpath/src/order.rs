@@ -53,6 +53,7 @@ pub fn order_with<'a>(
     }
     pieces.sort_by_key(|p| (ranks[p.color.index()], p.color, class(p.role, options)));
     let key = |p: &Piece| (p.color, class(p.role, options));
+    let free = options.roles == RoleOrder::Any && options.monotonic == Monotonic::Off;
     let mut out = Vec::with_capacity(pieces.len());
     let (mut at, total) = (start, pieces.len());
     let ends = options.turns.map(|turns| (turns, level_ends::Ends::of(&pieces)));
@@ -70,9 +71,13 @@ pub fn order_with<'a>(
         if let Some((turns, ends)) = &ends {
             ends.level(&mut out[printed..], others, total - others.len(), turns);
         }
+        if let Some(via) = colors.via.filter(|_| free) {
+            let group = out.split_off(printed);
+            out.append(&mut order_runs::by_place(group, via, &|_, _| 0.0));
+            at = via;
+        }
         rest = others;
     }
-    let free = options.roles == RoleOrder::Any && options.monotonic == Monotonic::Off;
     match colors.change {
         Some(change) if free => order_runs::by_place(out, start, change),
         _ => out,

@@ -1,6 +1,6 @@
 //! In which order colours are printed.
 
-use fgm_core::ColorId;
+use fgm_core::{ColorId, Point2};
 
 /// What it costs to go on in another colour, in mm of travel; the same both ways, none from a colour
 /// to itself.
@@ -14,6 +14,9 @@ pub struct ColorOrder<'a> {
     /// Where none, a layer comes back to no colour. Else it goes from part to part as travels and
     /// changes together cost least, beginning near the first colour and ending near the last.
     pub change: Option<Change<'a>>,
+    /// Where the nozzle goes between two colours, mm, as to a tower: a colour is then begun and ended
+    /// near there.
+    pub via: Option<Point2>,
 }
 
 impl ColorOrder<'_> {
@@ -33,7 +36,7 @@ impl ColorOrder<'_> {
 /// No colour is come back to.
 impl<'a> From<&'a [ColorId]> for ColorOrder<'a> {
     fn from(sequence: &'a [ColorId]) -> Self {
-        Self { sequence, change: None }
+        Self { sequence, change: None, via: None }
     }
 }
 

@@ -49,7 +49,7 @@ fn a_colour_is_come_back_to_where_changes_cost_less_than_the_way() {
     let sequence = [0, 1, 2].map(ColorId);
     let colors = |costs: f64| {
         let change = move |a: ColorId, b: ColorId| costs * f64::from(a.0.abs_diff(b.0));
-        let order = ColorOrder { sequence: &sequence, change: Some(&change) };
+        let order = ColorOrder { sequence: &sequence, change: Some(&change), via: None };
         let out = order_routes(routes.clone(), order, Point2::ZERO);
         (out.iter().map(|p| p.color.0).collect::<Vec<_>>(), travel(&out, Point2::ZERO))
     };

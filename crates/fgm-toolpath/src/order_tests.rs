@@ -236,3 +236,33 @@ fn a_hidden_seam_lies_in_a_corner_that_goes_into_the_part() {
     begin_at_seams(&mut kept, &options);
     assert_eq!(kept, open);
 }
+
+#[test]
+fn a_colour_is_begun_and_ended_near_the_place_between_colours() {
+    // Scattered, as multiples of the golden ratio are.
+    let at =
+        |i: u16| (97.0 * f64::from(i) * 0.618_034 % 97.0, 61.0 * f64::from(i) * 0.414_214 % 61.0);
+    let line = |i: u16| {
+        let (x, y) = at(i);
+        piece(&[(x, y), (x + 3.0, y)], i % 2, Role::Infill)
+    };
+    let pieces: Vec<Piece> = (0..60).map(line).collect();
+    let colors = ids(&[0, 1]);
+    let via = Point2::new(-30.0, 30.0);
+    let order = ColorOrder { via: Some(via), ..ColorOrder::from(&colors) };
+    let way = |order: ColorOrder<'_>| {
+        let out = order_with(pieces.clone(), order, Point2::ZERO, &OrderOptions::default());
+        let end = |p: &Piece| (p.points[0], p.points[p.points.len() - 1]);
+        assert_eq!(out.len(), 60);
+        // From the place to each colour and back.
+        let colors = out.chunk_by(|a, b| a.color == b.color);
+        let trips = colors.map(|run| {
+            let inside = run.windows(2).map(|w| end(&w[0]).1.distance(end(&w[1]).0));
+            let (first, last) = (end(&run[0]).0, end(&run[run.len() - 1]).1);
+            via.distance(first) + inside.sum::<f64>() + last.distance(via)
+        });
+        trips.sum::<f64>()
+    };
+    let (plain, near) = (way(ColorOrder::from(&colors)), way(order));
+    assert!(near < plain - 20.0, "{near}, {plain}");
+}

@@ -52,6 +52,8 @@ pub(crate) struct Job<'a> {
     /// What a whole change of mixture is worth, mm of travel; infinite where a layer comes back to no
     /// colour.
     pub(crate) change: f64,
+    /// The tower that the nozzle goes to between colours, mm.
+    pub(crate) tower: Option<Point2>,
     /// The layer that lies on the bed, from 0.
     pub(crate) first: usize,
 }
@@ -243,7 +245,8 @@ impl Job<'_> {
 
     /// One colour after the other, or as changes and travels cost least.
     fn color_order<'c>(&self, colors: &'c [ColorId], change: Change<'c>) -> ColorOrder<'c> {
-        ColorOrder { sequence: colors, change: self.change.is_finite().then_some(change) }
+        let change = self.change.is_finite().then_some(change);
+        ColorOrder { sequence: colors, change, via: self.tower }
     }
 
     /// On the first layer, skirt and brim around the part in the colour that comes first.

@@ -69,7 +69,7 @@ settings! {
         #[doc = "Shorter pieces are shared out between their neighbours on the path, where no place is then off by more than a band; 0 for none."]
         shortest: f64 = 3.0, "3", "mm";
         #[doc = "The same for walls, whose pieces do not lie beside others that they have to match; not for spirals."]
-        shortest_wall: f64 = 4.0, "4", "mm";
+        shortest_wall: f64 = 4.5, "4.5", "mm";
         #[doc = "Steepest boundary between colours at which the lines of a filling turn round along it instead of travelling, by the angle between them and its normal. At more, turns along it would leave gaps: two lines that end one after the other there are both ended half-way, and turn straight."]
         turns: f64 = 60.0, "60", "degrees";
     }

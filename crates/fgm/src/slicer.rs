@@ -119,6 +119,7 @@ impl<'a> Slicer<'a> {
         let offset = self.stand(&mut job, &mut range, &part, &mut warnings)?;
         let flat = range.start..job.flat_end(&range);
         let purge = self.purge(&outliner, &palette, layers, flat, (&part, offset))?;
+        job.tower = purge.as_ref().and_then(|purge| purge.place(part.xy().center()));
         let mut stream = self.stream(&palette, layers, offset, &range, purge, out)?;
 
         let mut report = Report::default();

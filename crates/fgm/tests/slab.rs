@@ -55,7 +55,8 @@ fn sectioned_holds_volume_composition_and_length() {
     assert!((volume / report.model_mm3 - 1.0).abs() < 0.01, "{volume} of {}", report.model_mm3);
     let (mean, greatest) = composition_error(&beads);
     assert!(mean < 0.0164, "{mean}");
-    assert!(greatest < 1.0 / 16.0, "{greatest}");
+    // A band, and what the G-code's digits round.
+    assert!(greatest < 1.0 / 16.0 + 1e-4, "{greatest}");
 
     // The same paths in one colour: cutting them has lost and doubled nothing.
     settings.palette.colors = Some(fgm::ColorCount::Count(1));

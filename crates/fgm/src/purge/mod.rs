@@ -7,7 +7,7 @@ mod needs;
 mod order;
 mod tally;
 
-use fgm_core::{Bounds2, Bounds3, ColorId, Point3, Role, bead};
+use fgm_core::{Bounds2, Bounds3, ColorId, Point2, Point3, Role, bead};
 use fgm_gcode::Machine;
 use fgm_toolpath::{Piece, ToolpathError, TowerOptions, Towers};
 
@@ -121,6 +121,13 @@ impl Purge {
     /// How towers stand; none where there are none.
     pub(crate) fn layout(&self) -> Option<PurgeLayout> {
         self.places.as_ref().map(Places::layout)
+    }
+
+    /// The place of the tower, if all colours share one, that is nearest to a point.
+    pub(crate) fn place(&self, p: Point2) -> Option<Point2> {
+        let places = self.places.as_ref().filter(|places| places.spots.is_empty())?;
+        let bounds = places.towers.spot(0)?;
+        Some(p.clamp(bounds.min, bounds.max))
     }
 
     /// What was purged and saved.

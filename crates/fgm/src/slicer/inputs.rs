@@ -138,6 +138,7 @@ impl Slicer<'_> {
             hidden_purges: purge::hides(self.machine, self.settings)
                 .then(|| self.needs(colors::ids(palette).map(|c| palette.state(c)).collect())),
             change: self.change_of_color(),
+            tower: None,
             first: 0,
         })
     }
