@@ -15,7 +15,7 @@ const MOST_MOVED: usize = 24;
 /// How far, in places of the tour, parts are moved, so that the cost is linear in their number.
 const FARTHEST: usize = 160;
 /// Sweeps over a layer.
-const SWEEPS: usize = 12;
+const SWEEPS: i32 = 12;
 /// Smaller gains, mm, are not worth another sweep.
 const WORTH: f64 = 1e-3;
 /// Smaller gains, mm, are rounding.
@@ -62,13 +62,16 @@ pub(crate) fn walk(parts: &[Part], tour: &mut [Stop], start: Point2, change: Cha
         kinds: colors.len(),
         sides: Vec::new(),
         links: vec![0.0; tour.len() + 1],
+        sweep: 0,
+        changed: vec![-1; parts.len()],
         tour,
         begin,
         end,
     };
     walk.sides = walk.tour.iter().map(|&stop| walk.sides_of(stop)).collect();
     walk.look(0..walk.tour.len());
-    for _ in 0..SWEEPS {
+    for sweep in 0..SWEEPS {
+        walk.sweep = sweep;
         let before = walk.cost();
         (0..walk.tour.len()).for_each(|i| walk.move_part(i));
         walk.move_rows();
@@ -101,6 +104,9 @@ struct Walk<'a> {
     sides: Vec<(Side, Side)>,
     /// What it costs to come to each place of the tour, and to the end.
     links: Vec<f64>,
+    sweep: i32,
+    /// The sweep in which what lies beside a part last changed.
+    changed: Vec<i32>,
     begin: Side,
     end: Side,
 }
@@ -123,6 +129,20 @@ impl Walk<'_> {
         for i in places.start..=places.end {
             self.links[i] = self.link(self.before(i), self.after(i));
         }
+    }
+
+    /// Notes that a place of the tour follows another than before.
+    fn note(&mut self, i: usize) {
+        for near in [i.wrapping_sub(1), i] {
+            if let Some(&(part, _)) = self.tour.get(near) {
+                self.changed[part] = self.sweep;
+            }
+        }
+    }
+
+    /// Whether something has changed beside a place of the tour since it was tried in vain.
+    fn is_fresh(&self, i: usize) -> bool {
+        self.tour.get(i).is_some_and(|&(part, _)| self.changed[part] + 1 >= self.sweep)
     }
 
     /// The places that what stands from `i` to before `j` may be moved to.
@@ -164,6 +184,9 @@ impl Walk<'_> {
 
     /// Takes a part out and puts it in, by whichever door, where that gains most.
     fn move_part(&mut self, i: usize) {
+        if !self.is_fresh(i) {
+            return;
+        }
         let stop = self.tour[i];
         let (from, to) = (self.before(i), self.after(i + 1));
         let here = self.links[i] + self.door(stop).cost + self.links[i + 1];
@@ -188,13 +211,15 @@ impl Walk<'_> {
 
     /// Takes what stands from place `i` to before `j` to before place `k`.
     fn carry(&mut self, i: usize, j: usize, k: usize) {
-        if k > i {
+        let (from, to, seam) = if k > i {
             self.tour[i..k].rotate_left(j - i);
-            self.look(i..k);
+            (i, k, k - (j - i))
         } else {
             self.tour[k..j].rotate_right(j - i);
-            self.look(k..j);
-        }
+            (k, j, k + (j - i))
+        };
+        self.look(from..to);
+        [from, seam, to].into_iter().for_each(|place| self.note(place));
     }
 
     /// Whether a part can lie between two sides at less than a cost, by where its doors are.
@@ -227,7 +252,8 @@ impl Walk<'_> {
         let count = self.tour.len();
         for length in 2..=MOST_MOVED.min(count.saturating_sub(1)) {
             for i in 0..=count - length {
-                if let Some((k, turned)) = self.best_move(i, i + length) {
+                let fresh = self.is_fresh(i) || self.is_fresh(i + length - 1);
+                if let Some((k, turned)) = fresh.then(|| self.best_move(i, i + length)).flatten() {
                     if turned {
                         self.turn(i, i + length);
                     }
@@ -265,6 +291,9 @@ impl Walk<'_> {
         let count = self.tour.len();
         for i in 0..count {
             for j in i + 2..=count.min(i + FARTHEST) {
+                if !self.is_fresh(i) && !self.is_fresh(j - 1) {
+                    continue;
+                }
                 let (from, to) = (self.before(i), self.after(j));
                 let (head, tail) = (self.after(i), self.before(j));
                 let now = self.links[i] + self.links[j] - LEAST_GAIN;
@@ -273,6 +302,8 @@ impl Walk<'_> {
                 {
                     self.turn(i, j);
                     self.look(i..j);
+                    self.note(i);
+                    self.note(j);
                 }
             }
         }
@@ -305,7 +336,10 @@ impl Walk<'_> {
         let (_, mut door) = shortest(doors, &last, self.end.at);
         ways.push(last);
         for i in (0..self.tour.len()).rev() {
-            self.tour[i].1 = door;
+            if std::mem::replace(&mut self.tour[i].1, door) != door {
+                self.note(i);
+                self.note(i + 1);
+            }
             door = ways[i + 1][door as usize].1;
         }
         self.look(0..self.tour.len());
