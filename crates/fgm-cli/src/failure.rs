@@ -100,6 +100,11 @@ impl Failure {
         self
     }
 
+    /// The exit status, as a number.
+    pub(crate) fn status(&self) -> u8 {
+        self.status
+    }
+
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(self.status)
     }

@@ -4,6 +4,7 @@ use std::{
     fs,
     io::{self, BufWriter, Seek, Write},
     path::{Path, PathBuf},
+    sync::{Mutex, PoisonError},
 };
 
 use fgm::gcode::ProgressLines;
@@ -31,6 +32,17 @@ pub(crate) enum Output {
 }
 
 const BUFFER: usize = 1 << 16;
+
+/// Temporary files that have not taken their names.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes the temporary files of all outputs, where the program ends without dropping them.
+pub(crate) fn discard_unfinished() {
+    for path in UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        // Another thread may just have finished it, or dropped it.
+        let _ = fs::remove_file(path);
+    }
+}
 
 impl Output {
     /// Opens the place `path` names; `-` is standard output.
@@ -67,6 +79,9 @@ impl Output {
         }
         // Without the temporary name, which would mean nothing to the user.
         let file = builder.tempfile_in(folder).map_err(|e| fail(e.kind().into()))?;
+        let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        unfinished.push(file.path().to_path_buf());
+        drop(unfinished);
         Ok(Self::File { path, file: BufWriter::with_capacity(BUFFER, file) })
     }
 
@@ -156,6 +171,11 @@ mod tests {
         output.write_all(b"G28\n").unwrap();
         assert!(!path.exists());
         drop(output);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+        // Not dropped, as where the program is told to end.
+        let mut output = Output::create(&path).unwrap();
+        output.write_all(b"G28\n").unwrap();
+        discard_unfinished();
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 
         let mut output = Output::create(&path).unwrap();

@@ -1,13 +1,21 @@
 //! Progress on a terminal, and Ctrl-C.
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicBool, Ordering},
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::Duration,
 };
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::{failure::Failure, show};
+use crate::{failure::Failure, output, show};
+
+/// How long a slice may take to stop by itself, between two layers. A layer of a great many faces
+/// takes longer than anybody waits.
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Layers done on a bar with the time left; warnings above it.
 pub(crate) struct Terminal {
@@ -20,7 +28,15 @@ impl Terminal {
     pub(crate) fn new(quiet: bool) -> Result<Self, Failure> {
         let interrupted = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&interrupted);
-        ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        let stop = move || {
+            flag.store(true, Ordering::Relaxed);
+            thread::sleep(GRACE);
+            output::discard_unfinished();
+            let failure = Failure::interrupted();
+            show::failure(&failure);
+            std::process::exit(failure.status().into());
+        };
+        ctrlc::set_handler(stop)
             .map_err(|e| Failure::could_not(format!("could not watch for Ctrl-C: {e}")))?;
         let target =
             if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };

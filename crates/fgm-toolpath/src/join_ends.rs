@@ -8,8 +8,8 @@ use crate::{Piece, order::MEETS};
 const FARTHEST: f64 = 30.0;
 /// How much longer than the boundary's angle says a travel may be: boundaries curve.
 const SLACK: f64 = 1.025;
-/// How far apart the lines themselves may be, as a share of that: no line lies between them.
-const BESIDE: f64 = 0.65;
+/// How far apart the lines themselves may be, in line spacings: no line lies between them.
+pub(crate) const BESIDE: f64 = 1.3;
 /// What a piece must have for every millimetre of the travel, mm.
 const LEAST: f64 = 3.0;
 /// Steps towards the length that is cut off; each halves the error where lines run side by side.
@@ -54,24 +54,24 @@ pub fn join_ends(pieces: &mut Vec<Piece>, turns: &Turns) {
             piece.role == into.role && piece.width == into.width && piece.color == into.color;
         alike
             && turns.may_turn(piece.role)
-            && join(into, piece, turns.reach() * bead::spacing(into.width, turns.height))
+            && join(into, piece, turns.reach(), bead::spacing(into.width, turns.height))
     });
 }
 
-/// Appends a piece to another if it begins beside that one's end.
-fn join(into: &mut Piece, piece: &mut Piece, farthest: f64) -> bool {
+/// Appends a piece to another if it begins beside that one's end, at most `reach` spacings away.
+fn join(into: &mut Piece, piece: &mut Piece, reach: f64, spacing: f64) -> bool {
     let (Some(&end), Some(&start)) = (into.points.last(), piece.points.first()) else {
         return false;
     };
     let gap = end.distance(start);
-    if !(gap > MEETS && gap <= farthest) || into.is_loop() || piece.is_loop() {
+    if !(gap > MEETS && gap <= reach * spacing) || into.is_loop() || piece.is_loop() {
         return false;
     }
     let steps = |w: &[Point2]| w[0].distance(w[1]);
     let least = LEAST * gap;
     if !reaches(into.points.windows(2).rev().map(steps), least)
         || !reaches(piece.points.windows(2).map(steps), least)
-        || aside(&into.points, start) > farthest * BESIDE
+        || aside(&into.points, start) > BESIDE * spacing
     {
         return false;
     }

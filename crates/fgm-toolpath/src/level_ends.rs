@@ -3,10 +3,13 @@
 
 use fgm_core::{Point2, bead};
 
-use crate::{Piece, join_ends::Turns};
+use crate::{
+    Piece,
+    join_ends::{BESIDE, Turns},
+};
 
-/// How far from each other neighbours may be, in line spacings.
-const BESIDE: std::ops::Range<f64> = 0.5..1.3;
+/// How near to each other neighbours may be, in line spacings.
+const NEAREST: f64 = 0.5;
 /// The farthest that one may end before the other, in line spacings: the boundary then stands at
 /// 7 degrees to them.
 const FARTHEST: f64 = 8.0;
@@ -19,6 +22,13 @@ const STRAIGHT: f64 = 0.9999;
 pub(crate) struct Ends {
     /// By place.
     ends: Vec<End>,
+}
+
+/// One end of a piece, by the piece's number; its last point or its first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PieceEnd {
+    pub(crate) piece: usize,
+    pub(crate) last: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -49,12 +59,15 @@ impl Ends {
     /// the lines beyond it are among `rest`, the pieces from number `first` on: what one line gains
     /// in length, the line beyond loses, so that nothing lies bare or twice, and the boundary moves by
     /// less than half a spacing.
+    ///
+    /// The ends beyond go to `pairs` where they are of one colour: they turn best into each other.
     pub(crate) fn level(
         &self,
         ordered: &mut [Piece],
         rest: &mut [Piece],
         first: usize,
         turns: &Turns,
+        pairs: &mut Vec<[PieceEnd; 2]>,
     ) {
         for i in 1..ordered.len() {
             let [before, piece] = &mut ordered[i - 1..=i] else { continue };
@@ -70,8 +83,12 @@ impl Ends {
             {
                 step.ahead.apply(before.points.last_mut());
                 step.back.apply(piece.points.first_mut());
-                step.ahead.apply(one.of(rest));
-                step.back.apply(other.of(rest));
+                step.ahead.apply(point(rest, one));
+                step.back.apply(point(rest, other));
+                if rest[one.piece].color == rest[other.piece].color {
+                    pairs
+                        .push([one, other].map(|end| PieceEnd { piece: first + end.piece, ..end }));
+                }
             }
         }
     }
@@ -84,31 +101,22 @@ impl Ends {
         rest: &[Piece],
         first: usize,
         shift: &Shift,
-    ) -> Option<Beyond> {
+    ) -> Option<PieceEnd> {
         let place = place(*end?);
         let from = self.ends.partition_point(|e| e.place < place);
         let here = self.ends[from..].iter().take_while(|e| e.place == place);
-        here.filter_map(|e| Some(Beyond { piece: e.piece.checked_sub(first)?, last: e.last })).find(
-            |beyond| {
+        here.filter_map(|e| Some(PieceEnd { piece: e.piece.checked_sub(first)?, last: e.last }))
+            .find(|beyond| {
                 let Some(piece) = rest.get(beyond.piece) else { return false };
                 let [tip, next] = tip(&piece.points, beyond.last);
                 crate::level_ends::place(tip) == place && shift.fits(next - tip)
-            },
-        )
+            })
     }
 }
 
-#[derive(Clone, Copy)]
-struct Beyond {
-    piece: usize,
-    last: bool,
-}
-
-impl Beyond {
-    fn of(self, rest: &mut [Piece]) -> Option<&mut Point2> {
-        let points = &mut rest.get_mut(self.piece)?.points;
-        if self.last { points.last_mut() } else { points.first_mut() }
-    }
+fn point(pieces: &mut [Piece], end: PieceEnd) -> Option<&mut Point2> {
+    let points = &mut pieces.get_mut(end.piece)?.points;
+    if end.last { points.last_mut() } else { points.first_mut() }
 }
 
 /// An end of a line and the point before it; not finite where there is none.
@@ -156,7 +164,7 @@ fn step(one: &[Point2], other: &[Point2], width: f64, turns: &Turns) -> Option<S
     let apart = start - end;
     let (along, aside) = (apart.dot(ahead), apart.perp_dot(ahead).abs());
     let steep = apart.length() > turns.reach() * spacing && along.abs() <= FARTHEST * spacing;
-    if !steep || !BESIDE.contains(&(aside / spacing)) || ahead.dot(back) < STRAIGHT {
+    if !steep || !(NEAREST..BESIDE).contains(&(aside / spacing)) || ahead.dot(back) < STRAIGHT {
         return None;
     }
     let least = LEAST * spacing;
@@ -196,7 +204,15 @@ mod tests {
     fn leveled(mut pieces: Vec<Piece>, count: usize) -> Vec<Piece> {
         let ends = Ends::of(&pieces);
         let (ordered, rest) = pieces.split_at_mut(count);
-        ends.level(ordered, rest, count, &TURNS);
+        let mut pairs = Vec::new();
+        ends.level(ordered, rest, count, &TURNS, &mut pairs);
+        for pair in pairs {
+            let [one, other] = pair.map(|end| {
+                let points = &pieces[end.piece].points;
+                if end.last { points[points.len() - 1] } else { points[0] }
+            });
+            assert!((one.x - other.x).abs() < 1e-12);
+        }
         pieces
     }
 

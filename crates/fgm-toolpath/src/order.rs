@@ -1,7 +1,10 @@
+use std::ops::Range;
+
 use fgm_core::{Point2, Role};
 
 use crate::{
-    Piece, level_ends,
+    Piece,
+    level_ends::{self, PieceEnd},
     order_color::ColorOrder,
     order_monotone,
     order_near::Near,
@@ -57,6 +60,7 @@ pub fn order_with<'a>(
     let mut out = Vec::with_capacity(pieces.len());
     let (mut at, total) = (start, pieces.len());
     let ends = options.turns.map(|turns| (turns, level_ends::Ends::of(&pieces)));
+    let mut pairs = Vec::new();
     let mut rest = pieces.as_mut_slice();
     while let Some(piece) = rest.first() {
         let first = key(piece);
@@ -66,10 +70,11 @@ pub fn order_with<'a>(
         at = if options.monotonic.takes(group[0].role) {
             order_monotone::order(group, at, options.direction, &mut out)
         } else {
-            order_group(group, at, options, &mut out)
+            let first = total - others.len() - count;
+            order_group(group, at, options, &pairs_of(&pairs, first..first + count), &mut out)
         };
         if let Some((turns, ends)) = &ends {
-            ends.level(&mut out[printed..], others, total - others.len(), turns);
+            ends.level(&mut out[printed..], others, total - others.len(), turns, &mut pairs);
         }
         if let Some(via) = colors.via.filter(|_| free) {
             let group = out.split_off(printed);
@@ -94,17 +99,25 @@ fn class(role: Role, options: &OrderOptions) -> u8 {
     }
 }
 
+/// The pairs of ends of some pieces, by their number among these.
+fn pairs_of(pairs: &[[PieceEnd; 2]], pieces: Range<usize>) -> Vec<[PieceEnd; 2]> {
+    let inside = |pair: &&[PieceEnd; 2]| pair.iter().all(|end| pieces.contains(&end.piece));
+    let own = |end: PieceEnd| PieceEnd { piece: end.piece - pieces.start, ..end };
+    pairs.iter().filter(inside).map(|pair| pair.map(own)).collect()
+}
+
 /// Orders pieces that may stand in any order, moves them to `out`, and returns where the nozzle
-/// then is.
+/// then is. Ends that make a pair follow each other.
 fn order_group(
     pieces: &mut [Piece],
     start: Point2,
     options: &OrderOptions,
+    pairs: &[[PieceEnd; 2]],
     out: &mut Vec<Piece>,
 ) -> Point2 {
     let mut ends = Ends::of(pieces, options);
     let mut near = Near::new(&ends.at);
-    ends.link(&near);
+    ends.link(&near, pairs);
     let mut legs = ends.tour(&mut near, start);
     if options.improve > 0 {
         improve(&mut legs, start, options.improve);
@@ -199,7 +212,7 @@ impl Ends {
         self.vertex.push(vertex as u32);
     }
 
-    fn of_piece(&self, id: u32) -> std::ops::Range<u32> {
+    fn of_piece(&self, id: u32) -> Range<u32> {
         let piece = self.piece[id as usize] as usize;
         self.first[piece]..self.first[piece + 1]
     }
@@ -213,8 +226,8 @@ impl Ends {
         range.start + (range.end - 1 - id)
     }
 
-    /// Joins open pieces that meet into chains.
-    fn link(&mut self, near: &Near) {
+    /// Joins open pieces that meet, and pairs of ends, into chains.
+    fn link(&mut self, near: &Near, pairs: &[[PieceEnd; 2]]) {
         // The other end of the chain that ends here.
         let mut far: Vec<u32> = (0..self.at.len() as u32).map(|id| self.other(id)).collect();
         for id in near.ids() {
@@ -228,11 +241,29 @@ impl Ends {
                     && far[id as usize] != other
             };
             if let Some(other) = near.other_at(id, MEETS, accept) {
-                (self.link[id as usize], self.link[other as usize]) = (other, id);
-                let (a, b) = (far[id as usize], far[other as usize]);
-                (far[a as usize], far[b as usize]) = (b, a);
+                self.tie(id, other, &mut far);
             }
         }
+        for pair in pairs {
+            let [Some(one), Some(other)] = pair.map(|end| self.of_open(end)) else { continue };
+            let free = [one, other].iter().all(|&id| self.link[id as usize] == NONE);
+            if free && far[one as usize] != other {
+                self.tie(one, other, &mut far);
+            }
+        }
+    }
+
+    fn tie(&mut self, one: u32, other: u32, far: &mut [u32]) {
+        (self.link[one as usize], self.link[other as usize]) = (other, one);
+        let (a, b) = (far[one as usize], far[other as usize]);
+        (far[a as usize], far[b as usize]) = (b, a);
+    }
+
+    /// The end of a piece, where that is open.
+    fn of_open(&self, end: PieceEnd) -> Option<u32> {
+        let range = self.first[end.piece]..self.first[end.piece + 1];
+        let open = self.open[end.piece] && range.len() == 2;
+        open.then_some(range.start + u32::from(end.last))
     }
 
     /// The other end of the chain that begins at `id`.

@@ -70,8 +70,8 @@ settings! {
         shortest: f64 = 3.0, "3", "mm";
         #[doc = "The same for walls, whose pieces do not lie beside others that they have to match; not for spirals."]
         shortest_wall: f64 = 4.5, "4.5", "mm";
-        #[doc = "Steepest boundary between colours at which the lines of a filling turn round along it instead of travelling, by the angle between them and its normal. At more, turns along it would leave gaps: two lines that end one after the other there are both ended half-way, and turn straight."]
-        turns: f64 = 60.0, "60", "degrees";
+        #[doc = "Steepest boundary between colours along which the lines of a filling turn round, by the angle between them and its normal: the steeper, the longer the turns and the more is left bare beside them. Where it is steeper, two lines that end one after the other are both ended half-way and turn straight. At 0 no line turns at a boundary."]
+        turns: f64 = 30.0, "30", "degrees";
     }
     #[doc = "Walls, strategy sectioned."]
     walls: WallSettings {
@@ -130,7 +130,7 @@ settings! {
         seam: Seam = Seam::Nearest, "\"nearest\"", "nearest | rear | aligned | random | sharpest | hidden";
         #[doc = "The point of the aligned seam, x and y in the design's coordinates."]
         seam_point: Option<[f64; 2]> = None, "the design's corner of greatest x and y", "[mm, mm]";
-        #[doc = "What a change from one pure material to another is worth, in travel, where a machine mixes and nothing is purged: it then comes back to a colour for a part that lies near, and a change by a tenth has to save a tenth of this. 1000000 prints each colour once a layer."]
+        #[doc = "What a change from one pure material to another is worth, in travel, where a machine mixes and nothing is purged: it then comes back to a colour for a part that lies near, and a change by a tenth has to save a tenth of this. 1000000 prints each colour once a layer, and so do order.walls other than any and skins.monotonic."]
         change: f64 = 400.0, "400", "mm";
         #[doc = "How many changes of the order are tried to shorten the travels, for each piece."]
         effort: u32 = 32, "32", "count";
