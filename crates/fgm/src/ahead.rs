@@ -44,6 +44,12 @@ impl Ahead {
         Self::Compensate { enabled, aim: settings.aim(), compensate }
     }
 
+    /// Whether commands come a volume ahead of what they are for, so that none can be in time for
+    /// the start: heads are taken where they are due, temperatures go by time.
+    pub(crate) fn comes_early(&self, machine: &Machine) -> bool {
+        machine.kind != MachineKind::ToolChanger && !matches!(self, Self::Preheat(_))
+    }
+
     /// The beads that come next go at this pace, where time counts.
     pub(crate) fn set_pace(&mut self, pace: Pace) {
         if let Self::Preheat(preheat) = self {

@@ -84,6 +84,18 @@ pub enum SliceError {
         /// How many loops it would take.
         outlines: usize,
     },
+    /// A spiral wall around an outline beside the one below.
+    #[error(
+        "the outline of layer {layer}, at z = {z:.3} mm of the design, lies beside that of the layer \
+         below, and a spiral (walls.spiral) would lead its bead there through the air: print the \
+         layers below it only (--layers 1..{}), or print without the spiral", layer - 1
+    )]
+    SpiralIsland {
+        /// From 1.
+        layer: usize,
+        /// Height of its middle in the design's coordinates, mm.
+        z: f64,
+    },
     /// A spiral wall would have to go on above a layer without a loop.
     #[error(
         "the part goes on in layer {layer}, at z = {z:.3} mm of the design, above layers that are \

@@ -54,6 +54,7 @@ mod inspect;
 mod job;
 mod layers;
 mod machine;
+mod onset;
 mod outlines;
 mod pipeline;
 mod placement;

@@ -117,7 +117,9 @@ impl<'a> Slicer<'a> {
         warnings.tell(colors::narrowed(&palette, self.design, self.settings, &outliner)?);
         let mut job = self.job(&outliner, &palette, layers, pool.current_num_threads())?;
         let offset = self.stand(&mut job, &mut range, &part, &mut warnings)?;
+        warnings.tell(job.no_spiral(&range));
         let flat = range.start..job.flat_end(&range);
+        let on_bed = range.start == job.first;
         let purge = self.purge(&outliner, &palette, layers, flat, (&part, offset))?;
         job.tower = purge.as_ref().and_then(|purge| purge.place(part.xy().center()));
         let mut stream = self.stream(&palette, layers, offset, &range, purge, out)?;
@@ -154,11 +156,12 @@ impl<'a> Slicer<'a> {
             });
         }
         seconds.total = start.elapsed().as_secs_f64();
+        warnings.tell(self.unled(&written.onset, on_bed.then_some(&job))?);
         self.fill(&mut report, written, palette.colors(), total);
         warnings.tell(self.too_short(&report.cooling));
         warnings.tell(self.too_narrow(merged, palette.colors()));
         warnings.tell(report.purge.as_ref().and_then(unpurged));
-        warnings.tell(spiral.warning());
+        warnings.tell(spiral.warnings());
         report.warnings = warnings.into_vec();
         report.seconds = seconds;
         Ok(report)

@@ -3,9 +3,11 @@
 
 use std::ops::Range;
 
-use fgm_core::{ColorId, Point2, Polygon, Ring};
+use fgm_core::{ColorId, Point2, Polygon, Ring, Role};
 use fgm_gcode::{Machine, MachineKind};
-use fgm_toolpath::{Inset, Piece, Rise, Turn, WallOptions, fade, walls};
+use fgm_toolpath::{
+    Inset, Piece, Rise, Turn, WallOptions, fade, mark_overhangs, region::intersection, walls,
+};
 
 use crate::{
     colors,
@@ -23,6 +25,8 @@ use crate::{
 pub(crate) struct Wall {
     /// Its points, the first not repeated; none where no loop fits.
     ring: Vec<Point2>,
+    /// The outline that it runs in.
+    around: SharedOutline,
     /// Whether the design has more than the outer wall there: holes, or what is too thin for a loop.
     left_out: bool,
 }
@@ -52,7 +56,10 @@ impl Wall {
         let left_out = holes || !thin.is_empty() || filled.len() > loops.len();
         let simple = |path: fgm_toolpath::Path| path.simplified(job.settings.contour.resolution);
         let ring = loops.into_iter().next().map_or_else(Vec::new, |path| simple(path).points);
-        Ok((Self { ring, left_out }, Outline::new(filled, Vec::new())))
+        let runs_in = |p: &&Polygon| ring.first().is_some_and(|at| p.outer.contains(*at));
+        let around = filled.iter().find(runs_in).cloned().into_iter().collect();
+        let around = SharedOutline::new(Outline::new(around, Vec::new()));
+        Ok((Self { ring, around, left_out }, Outline::new(filled, Vec::new())))
     }
 }
 
@@ -65,6 +72,23 @@ impl Job<'_> {
     /// Where the flat layers of a print of these layers end: with it, or where the spiral begins.
     pub(crate) fn flat_end(&self, range: &Range<usize>) -> usize {
         range.clone().find(|&index| self.spirals(index)).unwrap_or(range.end)
+    }
+
+    /// That a spiral was asked for and none of these layers belongs to it.
+    pub(crate) fn no_spiral(&self, range: &Range<usize>) -> Option<String> {
+        if !self.settings.walls.spiral || self.flat_end(range) < range.end {
+            return None;
+        }
+        let (bottom, count) = (self.settings.flat_layers(self.first), self.layers.count());
+        let why = if bottom >= count {
+            format!("the part has {count} layers")
+        } else {
+            format!("the layers asked for end with {}", range.end)
+        };
+        Some(format!(
+            "no spiral is printed (walls.spiral): the bottom below it ends with layer {bottom} \
+             (skins.bottom, --bottom), and {why}"
+        ))
     }
 
     /// The loop of a layer of the spiral.
@@ -86,6 +110,23 @@ impl Job<'_> {
     }
 }
 
+/// Layers that something is told of.
+#[derive(Default)]
+struct Layered {
+    count: usize,
+    /// From 1.
+    first: usize,
+}
+
+impl Layered {
+    fn add(&mut self, index: usize) {
+        self.count += 1;
+        if self.count == 1 {
+            self.first = index + 1;
+        }
+    }
+}
+
 /// Takes planned layers in their order and hands them on, with the spiral's loops turned, led from
 /// one to the next and cut by colour: each one layer late, since the last of them is different.
 pub(crate) struct Spiral<'j> {
@@ -96,12 +137,14 @@ pub(crate) struct Spiral<'j> {
     last: Option<(Turn, PlannedLayer)>,
     /// What the next layer lies on, and where that ended.
     below: Option<SharedOutline>,
+    /// The outline of the layer below in the design.
+    outline: Option<SharedOutline>,
     end: Option<Point2>,
     color: Option<ColorId>,
     over: bool,
-    /// Layers of which a part is left out, and the first of them.
-    left_out: usize,
-    first_left_out: usize,
+    /// Layers of which a part is left out, and those that step outward over air.
+    left_out: Layered,
+    leaning: Layered,
 }
 
 impl<'j> Spiral<'j> {
@@ -114,11 +157,12 @@ impl<'j> Spiral<'j> {
             changer: changer.map(|machine| machine.name.as_str()),
             last: None,
             below: None,
+            outline: None,
             end: None,
             color: None,
             over: false,
-            left_out: 0,
-            first_left_out: 0,
+            left_out: Layered::default(),
+            leaning: Layered::default(),
         }
     }
 
@@ -132,13 +176,11 @@ impl<'j> Spiral<'j> {
             let end = planned.pieces.last().and_then(|piece| piece.points.last());
             self.end = end.copied().or(self.end);
             self.below = Some(SharedOutline::clone(&planned.outline));
+            self.outline = Some(SharedOutline::clone(&planned.outline));
             return emit(planned);
         };
         if wall.left_out {
-            self.left_out += 1;
-            if self.left_out == 1 {
-                self.first_left_out = planned.index + 1;
-            }
+            self.left_out.add(planned.index);
         }
         let layer = self.job.layers.get(planned.index);
         let near = self.last.as_ref().map(|(turn, _)| turn.start()).or(self.end);
@@ -149,6 +191,10 @@ impl<'j> Spiral<'j> {
         };
         if self.over {
             return Err(SliceError::SpiralGap { layer: layer.index + 1, z: layer.cut });
+        }
+        let around = self.outline.replace(SharedOutline::clone(&wall.around));
+        if around.is_some_and(|below| !overlap(&wall.around.region, &below.region)) {
+            return Err(SliceError::SpiralIsland { layer: layer.index + 1, z: layer.cut });
         }
         self.wind(&turn, &layer, &mut planned)?;
         match self.last.replace((turn, planned)) {
@@ -172,15 +218,26 @@ impl<'j> Spiral<'j> {
         emit(planned)
     }
 
-    /// That more than one wall was wanted somewhere.
-    pub(crate) fn warning(&self) -> Option<String> {
-        let (layers, first) = (self.left_out, self.first_left_out);
-        (layers > 0).then(|| {
-            format!(
-                "walls.spiral prints the outer wall only: in {layers} layers, from layer {first} on, \
+    /// That more than one wall was wanted somewhere, and that it has nothing below.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let Layered { count, first } = self.left_out;
+        if count > 0 {
+            warnings.push(format!(
+                "walls.spiral prints the outer wall only: in {count} layers, from layer {first} on, \
                  holes or what is too thin for a loop are left out"
-            )
-        })
+            ));
+        }
+        let Layered { count, first } = self.leaning;
+        if count > 0 {
+            warnings.push(format!(
+                "the wall of the spiral (walls.spiral) leans outward by more than a bead's width, \
+                 {} mm, from one layer to the next: in {count} layers, from layer {first} on, it is \
+                 printed over air",
+                self.job.settings.layer.bead_width
+            ));
+        }
+        warnings
     }
 
     /// Makes the pieces of a turn.
@@ -202,6 +259,9 @@ impl<'j> Spiral<'j> {
             // The middle of a bead of full height below the nozzle.
             let heights = Heights { from: layer.cut - layer.height, to: layer.cut };
             let border = covered(job, &line);
+            if self.below.as_ref().is_some_and(|below| leans(&line, below, reach)) {
+                self.leaning.add(layer.index);
+            }
             let mut pieces = sectioned::rising_wall(job, layer, line, heights)?;
             self.check_colors(&pieces, layer)?;
             let length = pieces.iter().map(Piece::length).sum();
@@ -241,6 +301,27 @@ impl<'j> Spiral<'j> {
         Ok(())
     }
 }
+
+/// Whether two regions have an area in common.
+fn overlap(a: &[Polygon], b: &[Polygon]) -> bool {
+    // Where walls stand on each other, a point tells.
+    let inside = |of: &[Polygon], within: &[Polygon]| {
+        let points = of.iter().filter_map(|polygon| polygon.outer.points.first());
+        points.into_iter().any(|p| within.iter().any(|polygon| polygon.contains(*p)))
+    };
+    inside(a, b) || inside(b, a) || !intersection(a, b).is_empty()
+}
+
+/// Whether a bead lies beside what is below with its whole width, over more than that of its length.
+fn leans(line: &[Point2], below: &Outline, width: f64) -> bool {
+    let bead = Piece::new(line.to_vec(), Role::OuterWall, width, ColorId(0));
+    let marked = mark_overhangs(vec![bead], below.border(), WHOLE, |_| true);
+    let over = marked.iter().filter(|piece| piece.role == Role::FullOverhang);
+    over.map(Piece::length).sum::<f64>() > width
+}
+
+/// The share of its width that a bead over air may have on what is below.
+const WHOLE: f64 = 1e-3;
 
 /// What lies inside the outer border of a turn's bead: what holds the next turn. The layer's own
 /// outline would hold it only where the turn has been led over to that.

@@ -12,6 +12,7 @@ use crate::{
     error::SliceError,
     job::PlannedLayer,
     layers::Layers,
+    onset::Onset,
     purge::{Purge, PurgeReport},
     report::{CoolingReport, DepositReport},
     target::Target,
@@ -22,6 +23,8 @@ pub(crate) struct Stream<'a> {
     pub(crate) ahead: Ahead,
     pub(crate) writer: Writer<&'a mut dyn Write>,
     pub(crate) purge: Option<Purge>,
+    /// What cannot have its colour at the start.
+    pub(crate) onset: Onset,
     /// What the deposit is to be, where commands are chosen for the design.
     pub(crate) target: Option<Target<'a>>,
     pub(crate) cooling: Option<Cooling>,
@@ -42,6 +45,7 @@ pub(crate) struct Written {
     pub(crate) deposit: Option<DepositReport>,
     pub(crate) cooling: CoolingReport,
     pub(crate) purge: Option<PurgeReport>,
+    pub(crate) onset: Onset,
 }
 
 impl Stream<'_> {
@@ -50,12 +54,14 @@ impl Stream<'_> {
         let layer = self.layers.get(planned.index);
         let outline = planned.outline;
         let mut pieces = match &mut self.purge {
-            // A spiral cannot leave its wall for a tower.
-            Some(purge) if planned.rise.is_none() => {
-                purge.lay(planned.pieces, self.color, self.count, layer.height)
+            Some(purge) if planned.rise.is_some() => {
+                purge.pass(&planned.pieces, self.color);
+                planned.pieces
             }
-            _ => planned.pieces,
+            Some(purge) => purge.lay(planned.pieces, self.color, self.count, layer.height),
+            None => planned.pieces,
         };
+        self.onset.follow(&pieces, layer.height);
         if let (Some((options, inset)), Some(first)) = (&self.ways, pieces.first_mut()) {
             // Only now is known where the layer below ended.
             let (first, border) = (std::slice::from_mut(first), outline.border());
@@ -85,10 +91,10 @@ impl Stream<'_> {
 
     /// Writes the rest.
     pub(crate) fn finish(self) -> Result<Written, GcodeError> {
-        let Self { ahead, mut writer, cooling, purge, .. } = self;
+        let Self { ahead, mut writer, cooling, purge, onset, .. } = self;
         let deposit = ahead.finish(|step| writer.push(step))?;
         let cooling = cooling.map_or_else(CoolingReport::default, |c| c.report());
         let purge = purge.map(Purge::finish);
-        Ok(Written { summary: writer.finish()?, deposit, cooling, purge })
+        Ok(Written { summary: writer.finish()?, deposit, cooling, purge, onset })
     }
 }

@@ -284,6 +284,121 @@ fn a_leaning_wall_hangs_over_all_the_way_round() {
     }
 }
 
+fn colored(geometry: &str) -> String {
+    format!("fgrade([\"x/40 + 0.5\", \"0.5 - x/40\"], [\"a\", \"b\"]) {{ {geometry} }}")
+}
+
+fn told<'r>(report: &'r fgm::Report, words: &str) -> Option<&'r str> {
+    let mut found = report.warnings.iter().filter(|warning| warning.contains(words));
+    let one = found.next().map(String::as_str);
+    assert!(found.next().is_none(), "{:?}", report.warnings);
+    one
+}
+
+#[test]
+fn no_bead_goes_through_the_air_to_an_island() {
+    let stacked =
+        |x: f64| colored(&format!("cylinder(5, 5); translate({x}, 0, 5) {{ cylinder(5, 5); }}"));
+    for x in [20.0, 10.1] {
+        let error = refused(&stacked(x), "generic-mixing", &spiral());
+        assert!(
+            matches!(error, SliceError::SpiralIsland { layer: 26, z } if (z - 5.1).abs() < 1e-9),
+            "{x}: {error}"
+        );
+        assert!(error.is_bad_input() && error.to_string().contains("--layers 1..25"), "{error}");
+    }
+    // A bar across a bar lies on it, though neither holds a corner of the other.
+    let bars = colored(
+        "translate(0, 0, 2.5) { rectprism(30, 4, 5); } translate(0, 0, 7.5) { rectprism(4, 30, 5); }",
+    );
+    for design in [stacked(9.0), bars] {
+        let (report, _) = slice(&parse(&design), "generic-mixing", &spiral());
+        let warning = told(&report, "leans outward").unwrap();
+        assert!(warning.contains("in 1 layers, from layer 26 on"), "{warning}");
+    }
+}
+
+#[test]
+fn a_wall_that_leans_by_more_than_a_bead_is_told() {
+    let lean = |by: f64| CONE.replace("0.4 z", &format!("{by} z")).replace("17", "36");
+    // By 0.36 and 0.44 mm a layer; all but those where the wall stands on the bottom's edge.
+    for (by, layers) in [(1.8, None), (2.2, Some("in 46 layers, from layer 5 on"))] {
+        let (report, _) = slice(&parse(&lean(by)), "generic-mixing", &spiral());
+        let found = told(&report, "leans outward");
+        let fits = |words| found.is_some_and(|warning| warning.contains(words));
+        assert!(layers.map_or(found.is_none(), fits), "{by}: {found:?}");
+    }
+}
+
+/// What the first dead volume lays down cannot be commanded, where no tower comes before it.
+#[test]
+fn a_start_without_its_colours_is_told_and_a_skirt_mends_it() {
+    let rod = |formula: &str| {
+        let (a, b) = (formula, format!("1 - ({formula})"));
+        format!("fgrade([\"{a}\", \"{b}\"], [\"a\", \"b\"]) {{ cylinder(3, 20); }}")
+    };
+    let words = "at the start of the print";
+    let run = |source: &str, change: &dyn Fn(&mut Settings)| {
+        let mut settings = spiral();
+        settings.palette.colors = Some(ColorCount::Count(16));
+        change(&mut settings);
+        slice(&parse(source), "generic-mixing", &settings)
+    };
+    let graded = rod("z/20");
+    let (report, _) = run(&graded, &|_| ());
+    let warning = told(&report, words).unwrap();
+    let (_, loops) = warning.split_once("skirt.loops=").unwrap();
+    let loops: usize = loops.parse().unwrap();
+    // As many as it takes, and no more.
+    for (loops, warns) in [(loops - 1, true), (loops, false)] {
+        let (report, gcode) = run(&graded, &|settings| settings.skirt.loops = loops);
+        assert_eq!(told(&report, words).is_some(), warns, "{loops}");
+        let commands = deposit(&gcode).commands;
+        assert_eq!(commands.iter().filter(|command| command.1 <= 1e-9).count() == 1, !warns);
+    }
+    // Without a layer on the bed there is no skirt.
+    let (report, _) = run(&graded, &|settings| settings.slice.first_layer = 10);
+    assert!(told(&report, words).unwrap().contains("mm3 printed before would take it"));
+    type Case = (&'static str, String, fn(&mut Settings));
+    let silent: [Case; 3] = [
+        ("one colour", graded.clone(), |s| s.palette.colors = Some(ColorCount::Count(1))),
+        ("slow", rod("z/2000"), |_| ()),
+        ("no dead volume", graded.clone(), |s| s.lead.volume = Some(0.0)),
+    ];
+    for (name, source, change) in silent {
+        assert_eq!(told(&run(&source, &change).0, words), None, "{name}");
+    }
+}
+
+#[test]
+fn a_print_without_a_spiral_is_told() {
+    let sliced = |change: &dyn Fn(&mut Settings)| {
+        let mut settings = spiral();
+        change(&mut settings);
+        slice(&parse(CONE), "generic-mixing", &settings).0
+    };
+    let words = "no spiral is printed";
+    assert_eq!(told(&sliced(&|_| ()), words), None);
+    let high = sliced(&|settings| settings.skins.bottom = 200);
+    assert!(told(&high, words).unwrap().ends_with("the part has 50 layers"));
+    let low = sliced(&|settings| settings.slice.last_layer = Some(4));
+    assert!(told(&low, words).unwrap().ends_with("the layers asked for end with 4"));
+    assert_eq!(told(&sliced(&|settings| settings.slice.last_layer = Some(5)), words), None);
+}
+
+/// The first colour is no change, and those along the spiral are counted apart.
+#[test]
+fn changes_are_those_of_the_bottom_and_those_of_the_spiral() {
+    let (report, _) = slice(&parse(CONE), "generic-mixing", &spiral());
+    let purge = report.purge.unwrap();
+    assert!(purge.changes > 0 && purge.purged == purge.changes, "{purge:?}");
+    assert_eq!((purge.changes + purge.spiral_changes) as u64, report.state_changes);
+    let mut one = spiral();
+    one.palette.colors = Some(ColorCount::Count(1));
+    let purge = slice(&parse(CONE), "generic-mixing", &one).0.purge.unwrap();
+    assert_eq!((purge.changes, purge.purged, purge.spiral_changes), (0, 0, 0));
+}
+
 /// Of a hollow part the outer wall is printed, and the user is told.
 #[test]
 fn holes_are_left_out() {

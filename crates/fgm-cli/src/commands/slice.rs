@@ -308,6 +308,10 @@ fn purge_summary(purge: &PurgeReport) -> Vec<String> {
         let (purged, changes) = (purge.purged, purge.changes);
         lines.push(format!("{purged} of {changes} changes purged, {tower}{into}"));
     }
+    if purge.spiral_changes > 0 {
+        let changes = purge.spiral_changes;
+        lines.push(format!("{changes} changes along the spiral, where nothing is purged"));
+    }
     let saved = &purge.saved;
     if saved.total.mm3 > 0.0 {
         lines.push(format!(
@@ -355,6 +359,19 @@ pub(crate) fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_summary_counts_changes_where_they_are() {
+        let lines = |changes, spiral_changes| {
+            let counts =
+                PurgeReport { changes, purged: changes, spiral_changes, ..Default::default() };
+            purge_summary(&counts)
+        };
+        let along = "172 changes along the spiral, where nothing is purged";
+        assert!(lines(0, 0).is_empty());
+        assert_eq!(lines(0, 172), [along]);
+        assert_eq!(lines(29, 172), ["29 of 29 changes purged, no tower", along]);
+    }
 
     #[test]
     fn durations_are_short() {

@@ -118,6 +118,17 @@ impl Purge {
         all
     }
 
+    /// Counts the changes along pieces of a spiral, which cannot leave its wall for a tower. `color`
+    /// comes out before them.
+    pub(crate) fn pass(&mut self, pieces: &[Piece], color: Option<ColorId>) {
+        let mut before = color;
+        for piece in pieces {
+            let from = before.replace(piece.color);
+            let changes = from.is_some_and(|from| from != piece.color);
+            self.tally.report.spiral_changes += usize::from(changes);
+        }
+    }
+
     /// How towers stand; none where there are none.
     pub(crate) fn layout(&self) -> Option<PurgeLayout> {
         self.places.as_ref().map(Places::layout)
@@ -170,7 +181,7 @@ impl Purge {
             report.unpurged += usize::from(needed > 0.0 && color.is_some());
             return None;
         }
-        report.purged += 1;
+        report.purged += usize::from(color.is_some());
         report.infill_mm3 += hidden;
         // A run that nobody sees and that would take the purge as a whole needs none.
         let shown = !self.hidden || run.iter().any(|piece| !piece.role.is_hidden());

@@ -13,10 +13,13 @@ pub struct PurgeReport {
     pub layout: Option<PurgeLayout>,
     /// What takes the old colour first.
     pub into: PurgeInto,
-    /// Changes of colour, the first one counted.
+    /// Changes of colour where a purge is possible; what comes out first is none, though a tower
+    /// takes what was in the nozzle before it.
     pub changes: usize,
     /// Of them, those that were purged.
     pub purged: usize,
+    /// Changes along a spiral, besides: none of them is purged.
+    pub spiral_changes: usize,
     /// Of them, those above the threshold for which there was no tower: samples of the part had
     /// shown no such change.
     pub unpurged: usize,
@@ -77,7 +80,7 @@ impl Tally {
     /// A change of colour.
     pub(super) fn change(&mut self, needs: &Needs, from: Option<ColorId>, to: ColorId) {
         let (whole, volume) = (needs.whole(from, to), needs.volume(from, to));
-        self.report.changes += 1;
+        self.report.changes += usize::from(from.is_some());
         self.report.every_change_mm3 += whole;
         self.report.saved.threshold.mm3 += whole - volume;
     }

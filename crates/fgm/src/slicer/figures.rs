@@ -34,7 +34,7 @@ impl Slicer<'_> {
 
     /// Fills in what is known at the end.
     pub(super) fn fill(&self, report: &mut Report, written: Written, colors: usize, layers: usize) {
-        let Written { summary, deposit, cooling, purge } = written;
+        let Written { summary, deposit, cooling, purge, onset: _ } = written;
         report.version = env!("CARGO_PKG_VERSION");
         report.design.clone_from(&self.design.name);
         report.printer.clone_from(&self.machine.name);

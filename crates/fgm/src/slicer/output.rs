@@ -10,8 +10,8 @@ use fgm_palette::Palette;
 use super::Slicer;
 use crate::{
     ahead::Ahead, choice::ColorCount, colors, cooling::Cooling, density::Density,
-    error::SliceError, head, layers::Layers, purge::Purge, settings::Settings, stream::Stream,
-    target::Target,
+    error::SliceError, head, layers::Layers, onset::Onset, purge::Purge, settings::Settings,
+    stream::Stream, target::Target,
 };
 
 impl Slicer<'_> {
@@ -38,8 +38,11 @@ impl Slicer<'_> {
             ..WriterOptions::of(self.machine)
         };
         let (machine, settings) = (self.machine, self.settings);
+        let ahead = Ahead::new(machine, settings, lead, &mixtures, &states);
+        let late = if ahead.comes_early(machine) { lead } else { 0.0 };
         Ok(Stream {
-            ahead: Ahead::new(machine, settings, lead, &mixtures, &states),
+            onset: Onset::new(late, settings.purge.threshold, &mixtures),
+            ahead,
             writer: Writer::new(out, machine, &states, &options)?,
             purge,
             target: Target::of(self.design, settings),

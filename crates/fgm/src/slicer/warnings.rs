@@ -1,9 +1,15 @@
 //! What the user should know of a slice.
 
+use fgm_core::{ColorId, bead};
+use fgm_toolpath::{Piece, SkirtOptions, skirt};
+
 use super::Slicer;
 use crate::{
     choice::{Strategy, Zipper},
+    error::SliceError,
+    job::Job,
     layers::Layers,
+    onset::Onset,
     outlines::Outliner,
     progress::Progress,
     purge::PurgeReport,
@@ -67,6 +73,44 @@ impl Slicer<'_> {
         })
     }
 
+    /// That colours at the start of the print would have to be commanded before it begins, and how
+    /// large a skirt takes them. `job` is there if the print has a layer on the bed.
+    pub(super) fn unled(
+        &self,
+        onset: &Onset,
+        job: Option<&Job<'_>>,
+    ) -> Result<Option<String>, SliceError> {
+        let Some((off, missing)) = onset.off() else { return Ok(None) };
+        let loops = job.map(|job| self.skirt_for(missing, job)).transpose()?.flatten();
+        let way = match loops {
+            Some(loops) => format!("a skirt takes it with --set skirt.loops={loops}"),
+            None => format!("{missing:.1} mm3 printed before would take it"),
+        };
+        Ok(Some(format!(
+            "{off:.1} mm3 at the start of the print cannot have their colour and come out in the \
+             first one: {:.1} mm3 of dead volume (lead.volume) lie between a command and what comes \
+             out; {way}",
+            self.lead()
+        )))
+    }
+
+    /// How many loops a skirt has that takes a volume more than now; none if that is too many.
+    fn skirt_for(&self, volume: f64, job: &Job<'_>) -> Result<Option<u32>, SliceError> {
+        let layer = job.layers.get(job.first);
+        let outline = job.outlines.get(&layer)?;
+        let now = self.settings.skirt_options();
+        let options = SkirtOptions { loops: MOST_LOOPS, ..now };
+        let mut pieces = Vec::new();
+        skirt(&outline.region, ColorId(0), &options, &mut pieces);
+        let of = |piece: &Piece| piece.length() * bead::area(piece.width, layer.height);
+        let mut taken = 0.0;
+        let more = pieces.iter().skip(now.loops as usize).position(|piece| {
+            taken += of(piece);
+            taken >= volume
+        });
+        Ok(more.and_then(|more| u32::try_from(more + 1).ok()).map(|more| now.loops + more))
+    }
+
     /// That some layers have less time to cool than they should.
     pub(super) fn too_short(&self, cooling: &CoolingReport) -> Option<String> {
         let CoolingSettings { min_layer_time, min_speed } = self.settings.cooling;
@@ -79,6 +123,9 @@ impl Slicer<'_> {
         })
     }
 }
+
+/// The most loops that skirt.loops may be.
+const MOST_LOOPS: u32 = 100;
 
 /// That changes were found that no tower was made for.
 pub(super) fn unpurged(purge: &PurgeReport) -> Option<String> {
