@@ -30,6 +30,9 @@ pub struct BridgeOptions {
     /// bridge, where its lines are much longer, so that it is held along its length, or some are not
     /// held at both ends. 0 where walls are laid around the region, since they are the ledges.
     pub ledge: f64,
+    /// Lines that span less than this, mm, make no bridge: loops do not fall so soon. 0 where walls are
+    /// laid around the region.
+    pub shortest: f64,
     /// What a bridge would leave beside it that is narrower than this, mm, becomes part of it; 0
     /// where that is filled otherwise.
     pub least: f64,
@@ -72,6 +75,9 @@ pub fn bridges(
     for part in open {
         let spans = Spans::new(&part, support, options);
         let Some(across) = spans.best(LEAST_HELD) else { continue };
+        if across.span < options.shortest {
+            continue;
+        }
         if options.ledge > 0.0 && is_ledge(&part, &across, below, options.ledge, inset) {
             continue;
         }

@@ -6,7 +6,7 @@ use crate::ClipperInset;
 const WALLS: f64 = 1.2;
 
 fn options() -> BridgeOptions {
-    BridgeOptions { width: 0.4, anchor: 1.0, reach: WALLS, ledge: 0.0, least: 0.0 }
+    BridgeOptions { width: 0.4, anchor: 1.0, reach: WALLS, ledge: 0.0, shortest: 0.0, least: 0.0 }
 }
 
 fn rectangle(x: (f64, f64), y: (f64, f64)) -> Polygon {
@@ -109,6 +109,19 @@ fn bridges_of_one_layer_are_disjoint() {
     assert_eq!(bridges.len(), 2);
     let both = region::intersection(&bridges[0].region, &bridges[1].region);
     assert!(region::area(&both) < 1e-3);
+}
+
+#[test]
+fn what_loops_may_span_is_no_bridge() {
+    let plate = [rectangle((0.0, 40.0), (0.0, 20.0))];
+    for (gap, count) in [(4.0, 0), (6.0, 1)] {
+        let pillars =
+            [rectangle((0.0, 15.0), (0.0, 20.0)), rectangle((15.0 + gap, 40.0), (0.0, 20.0))];
+        let options = BridgeOptions { reach: 0.4, shortest: 4.8, ..options() };
+        let support = Support::new(&pillars);
+        let found = bridges(&plate, &pillars, &support, &options, &ClipperInset::default());
+        assert_eq!(found.len(), count, "{gap}");
+    }
 }
 
 #[test]

@@ -33,6 +33,9 @@ const MOST_MERGED: u16 = 64;
 /// walls of strategy 1 are.
 const LEDGE: f64 = 3.0;
 
+/// How many beads' widths loops may go through the air: what is shorter is no bridge.
+const SHORTEST: f64 = 12.0;
+
 /// The faces of a layer, filled.
 pub(crate) struct Filled {
     /// A round of pieces for each face, and for each colour of a bridge, before ordering.
@@ -126,6 +129,7 @@ fn bridge_routes(
         anchor: settings.bridges.anchor,
         reach: width,
         ledge: LEDGE * width,
+        shortest: SHORTEST * width,
         least: settings.bead_widths().0,
     };
     let Bridged { lines, rest } = bridged(job, layer, region, below, &options);

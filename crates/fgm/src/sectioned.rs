@@ -276,6 +276,7 @@ fn beside_bridges(
         reach: width + others * bead::spacing(width, layer.height),
         // Ledges are the walls' own, and what is left beside a bridge is filled however narrow.
         ledge: 0.0,
+        shortest: 0.0,
         least: 0.0,
     };
     let Bridged { lines, rest } = bridged(job, layer, inside, below, &options);

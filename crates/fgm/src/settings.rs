@@ -93,7 +93,7 @@ settings! {
     }
     #[doc = "What lies over air between places that hold it; its speed and fan are the printer's speed.bridge and fan.bridge."]
     bridges: BridgeSettings {
-        #[doc = "Whether to look for bridges: they are solid, and their lines go the shortest way across, with strategy against to the border of the part."]
+        #[doc = "Whether to look for bridges: they are solid, and their lines go the shortest way across, with strategy against to the border of the part and only over twelve bead widths and more."]
         enabled: bool = true, "true", "true | false";
         #[doc = "Factor on the volume of their beads."]
         flow: f64 = 1.0, "1", "factor";
