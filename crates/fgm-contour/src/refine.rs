@@ -52,6 +52,16 @@ pub(crate) struct Refiner {
     dead: Vec<bool>,
     segments: Vec<Segment>,
     contacts: Contacts,
+    scraps: Vec<Scrap>,
+}
+
+/// A ring that may be the scrap of a corner's tip.
+#[derive(Clone, Copy, Debug)]
+struct Scrap {
+    level: u16,
+    /// Of its first vertex.
+    x: f64,
+    chain: usize,
 }
 
 impl Refiner {
@@ -176,6 +186,9 @@ impl Refiner {
     /// recovered corner holds them.
     fn absorb_scraps(&mut self, options: &ContourOptions, chains: &Chains, positions: &[Point2]) {
         let limit = (1e-3 * options.cell).max(options.sag);
+        if self.extras.iter().any(|e| e.risky) {
+            self.find_scraps(chains, positions);
+        }
         for extra in self.extras.iter().filter(|e| e.risky) {
             let owner = &chains.list[extra.chain as usize];
             let nodes = &chains.nodes[owner.from..owner.to];
@@ -185,19 +198,32 @@ impl Refiner {
             let hull: Vec<Point2> = [at(k)].iter().chain(tip).copied().chain([at(k + 1)]).collect();
             let bounds = Bounds2::of(hull.iter().copied()).grown(limit);
             let turns_left = area(&hull) > 0.0;
-            for (index, chain) in chains.list.iter().enumerate() {
+            let before = |s: &Scrap| (s.level, s.x) < (owner.level, bounds.min.x);
+            let near = &self.scraps[self.scraps.partition_point(before)..];
+            let near = near.iter().take_while(|s| (s.level, s.x) <= (owner.level, bounds.max.x));
+            for scrap in near.filter(|scrap| scrap.chain as u32 != extra.chain) {
+                let chain = &chains.list[scrap.chain];
                 let nodes = &chains.nodes[chain.from..chain.to];
-                let small = chain.closed && nodes.len() <= MOST_SCRAP_VERTICES;
-                if !small || chain.level != owner.level || index as u32 == extra.chain {
-                    continue;
-                }
                 let ring = || nodes.iter().map(|&id| positions[id as usize]);
                 if ring().all(|p| bounds.contains(p) && holds(&hull, p, limit)) {
                     let points: Vec<Point2> = ring().collect();
-                    self.dead[index] |= (area(&points) > 0.0) == turns_left;
+                    self.dead[scrap.chain] |= (area(&points) > 0.0) == turns_left;
                 }
             }
         }
+    }
+
+    /// The rings small enough to be a scrap, by level and then from left to right.
+    fn find_scraps(&mut self, chains: &Chains, positions: &[Point2]) {
+        self.scraps.clear();
+        let small = |chain: &Chain| chain.closed && chain.to - chain.from <= MOST_SCRAP_VERTICES;
+        for (index, chain) in chains.list.iter().enumerate().filter(|(_, chain)| small(chain)) {
+            if let Some(&first) = chains.nodes.get(chain.from) {
+                let x = positions[first as usize].x;
+                self.scraps.push(Scrap { level: chain.level, x, chain: index });
+            }
+        }
+        self.scraps.sort_by(|s, t| s.level.cmp(&t.level).then(s.x.total_cmp(&t.x)));
     }
 
     /// Drops the risky additions that touch another segment; answers whether there were any.

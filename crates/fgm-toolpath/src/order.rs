@@ -32,17 +32,19 @@ pub fn order<'a>(
 ///
 /// Colour follows colour as in `colors`; colours that are not in there come last, by number. With
 /// [`ColorOrder::change`] pieces near each other then move to where travels and changes of colour
-/// together cost least, unless an order of roles or lines is asked for. Inside a colour the next piece is the nearest one: an open piece may be printed from either
-/// end, a loop (a piece whose last point is its first) from any vertex. Pieces of one colour that
-/// meet end to end are printed without a travel between them. Then the order is changed where that
-/// shortens the travels. `start` is where the nozzle is before the first piece, mm.
+/// together cost least, unless an order of roles or lines is asked for. Inside a colour the next piece
+/// is the nearest one: an open piece may be printed from either end, a loop (a piece whose last point
+/// is its first) from any vertex. Pieces of one colour that meet end to end are printed without a
+/// travel between them. Then the order is changed where that shortens the travels. `start` is where the
+/// nozzle is before the first piece, mm.
 ///
-/// Skins that are to be [`Monotonic`](crate::Monotonic) come last in their colour. Of two of their lines beside each
-/// other, in one colour, the one to the right of [`OrderOptions::direction`] is then printed first;
-/// lines joined into one piece are parted where that asks for it.
+/// Skins that are to be [`Monotonic`](crate::Monotonic) come last in their colour. Of two of their
+/// lines beside each other, in one colour, the one to the right of [`OrderOptions::direction`] is then
+/// printed first; lines joined into one piece are parted where that asks for it.
 ///
-/// Every piece is kept, once, or parted so. Pieces with points that are not finite come last in their colour.
-/// The same pieces in the same order give the same answer.
+/// Every piece is kept, once, or parted so; with [`OrderOptions::turns`] ends may move. Pieces with
+/// points that are not finite come last in their colour. The same pieces in the same order give the
+/// same answer.
 pub fn order_with<'a>(
     mut pieces: Vec<Piece>,
     colors: impl Into<ColorOrder<'a>>,
