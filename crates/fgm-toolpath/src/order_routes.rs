@@ -10,7 +10,7 @@ use crate::{
     order_color::{Change, ColorOrder},
     order_walk::{Door, Part, Stop, walk},
 };
-use sequence::{sequence, stops};
+use sequence::{MOST_EXACT, sequence, stops};
 
 /// Passes over a layer in which every route's place to begin is chosen anew, among all its vertices.
 const PASSES: usize = 2;
@@ -39,7 +39,9 @@ pub fn order_routes<'a>(
     let ranks = colors.ranks(rounds.iter().map(Round::color));
     rounds.sort_by_key(|round| (ranks[round.color().index()], round.color()));
     let stops: Vec<Vec<Gate>> = rounds.iter().map(stops).collect();
-    let mut tour = sequence(&rounds, &stops, start);
+    // A tour that is walked anew needs no more than a beginning.
+    let most_exact = if colors.change.is_some() { 1 } else { MOST_EXACT };
+    let mut tour = sequence(&rounds, &stops, start, most_exact);
     if let Some(change) = colors.change {
         go_by_place(&rounds, &stops, &mut tour, start, change);
     }

@@ -9,7 +9,7 @@ use super::{Begin, Gate, Round};
 use crate::order_walk::Stop;
 
 /// Routes of a colour of which every sequence is gone through; more are taken nearest first.
-const MOST_EXACT: usize = 5;
+pub(super) const MOST_EXACT: usize = 5;
 /// Vertices of a route at which it may be begun, as far as the sequence is concerned.
 const MOST_STOPS: usize = 24;
 /// Travels of its own that a route may be begun after or before, the longest.
@@ -20,7 +20,12 @@ const MOST_TRAVELS: usize = 4;
 /// A route is left where it is begun, but for travels of its own. So the state of the search is the
 /// set of routes printed, the last of them and where it was left (Held and Karp, 1962, with places):
 /// colour by colour, the best way to every place a colour may end at.
-pub(super) fn sequence(rounds: &[Round], stops: &[Vec<Gate>], start: Point2) -> Vec<Stop> {
+pub(super) fn sequence(
+    rounds: &[Round],
+    stops: &[Vec<Gate>],
+    start: Point2,
+    most_exact: usize,
+) -> Vec<Stop> {
     let mut search = Search::new(stops, start);
     let mut ends: Vec<Nodes> = std::iter::once(0..1).collect();
     let mut first = 0;
@@ -28,7 +33,7 @@ pub(super) fn sequence(rounds: &[Round], stops: &[Vec<Gate>], start: Point2) -> 
         let color = rounds[first].color();
         let count = rounds[first..].iter().take_while(|round| round.color() == color).count();
         let group = first..first + count;
-        ends = if count <= MOST_EXACT {
+        ends = if count <= most_exact {
             search.exact(&ends, group)
         } else {
             search.nearest_first(&ends, group)
