@@ -68,19 +68,28 @@ fn walls_come_in_the_order_asked_for() {
     }
 }
 
+/// Two blocks 20 mm long, on either side of the middle and so far from it, each graded outwards.
+fn two_blocks(at: i32) -> String {
+    let inner = f64::from(at - 10) / 20.0;
+    let outer = inner + 1.0;
+    format!(
+        r#"fgrade(["abs(x)/20 - {inner}", "{outer} - abs(x)/20"], ["a", "b"]) {{
+            translate(-{at}, 0, 1) {{ rectprism(20, 10, 2); }}
+            translate({at}, 0, 1) {{ rectprism(20, 10, 2); }}
+        }}"#
+    )
+}
+
 /// Two blocks beside each other, both graded from left to right: each colour is printed once a layer,
 /// wherever it is.
 #[test]
 fn islands_are_one_plate() {
-    let source = r#"fgrade(["abs(x)/20 - 0.25", "1.25 - abs(x)/20"], ["a", "b"]) {
-        translate(-15, 0, 1) { rectprism(20, 10, 2); }
-        translate(15, 0, 1) { rectprism(20, 10, 2); }
-    }"#;
+    let source = two_blocks(15);
     for strategy in [Strategy::Sectioned, Strategy::Against] {
         let mut settings = settings(strategy, 6);
         settings.purge.enabled = Some(false);
         (settings.lead.volume, settings.compensation.enabled) = (Some(0.0), Some(false));
-        let beads = deposit(&slice(&parse(source), "generic-mixing", &settings).1).beads;
+        let beads = deposit(&slice(&parse(&source), "generic-mixing", &settings).1).beads;
         for layer in beads.chunk_by(|a, b| a.layer == b.layer) {
             let runs = layer.chunk_by(|a, b| a.color == b.color);
             let sides =
@@ -95,17 +104,14 @@ fn islands_are_one_plate() {
 /// unless it is asked to, or purges, or a change takes time.
 #[test]
 fn far_parts_are_printed_one_after_the_other() {
-    let source = r#"fgrade(["abs(x)/20 - 2.25", "3.25 - abs(x)/20"], ["a", "b"]) {
-        translate(-55, 0, 1) { rectprism(20, 10, 2); }
-        translate(55, 0, 1) { rectprism(20, 10, 2); }
-    }"#;
+    let source = two_blocks(55);
     let crossings = |printer: &str, strategy, purge, change| {
         let mut settings = settings(strategy, 4);
         settings.purge.enabled = Some(purge);
         settings.order.change = change;
         (settings.lead.volume, settings.compensation.enabled) = (Some(0.0), Some(false));
         settings.slice.last_layer = Some(2);
-        let gcode = slice(&parse(source), printer, &settings).1;
+        let gcode = slice(&parse(&source), printer, &settings).1;
         let beads = deposit(&gcode).beads;
         assert!(beads.iter().any(|b| b.from.x < -40.0) && beads.iter().any(|b| b.from.x > 40.0));
         let part = beads.iter().filter(|b| !b.is_tower()).collect::<Vec<_>>();
